@@ -70,6 +70,10 @@ class Operator {
   // The state is the start of the next step. Called after the last sweep of a step (before endSweep()), before the
   // first step, and after loading.
   virtual void endStep(State&) {}
+  // Adds the rates at which a state changes by what acts in its owned cells, as they are now: no mean of a step, and of
+  // this state alone. `rates` has the sizes of State::balance. For operators that change the state by means other than
+  // transport.
+  virtual void addRates(const State&, State::Balance& /*rates*/) {}
   // Saves or loads the data that the operator keeps between two steps, besides the state. With both, the next step is
   // the same to the last bit. Collective.
   virtual void saveOrLoad(StateArchive&) {}

@@ -25,6 +25,7 @@
 #include "core/state_backup.hpp"
 #include "core/timers.hpp"
 #include "flow/peak.hpp"
+#include "flow/steady/residual_norms.hpp"
 #include "flow/steady/steadiness.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
@@ -134,7 +135,9 @@ class FlowLoop {
   [[nodiscard]] const Operator* holder() const;
   // How far from steady the run ended, for the closing report.
   [[nodiscard]] std::vector<std::string> steadyLines() const;
-  [[nodiscard]] std::string steadyJson() const;  // the same for the record
+  // Collective. By equation; nothing where ensembles move, whose rates are those of single events.
+  [[nodiscard]] std::vector<ResidualNorm> residualNow();
+  [[nodiscard]] std::string steadyJson(const std::vector<ResidualNorm>& residual) const;  // the same for the record
 
   // All that the next step, its outputs and the report depend on.
   void saveOrLoad(StateArchive& archive, std::vector<double>& history);

@@ -139,8 +139,16 @@ std::vector<std::string> FlowLoop::steadyLines() const {
   return lines;
 }
 
+std::vector<ResidualNorm> FlowLoop::residualNow() {
+  if (domain_->ensembles) return {};
+  const Timers::Scope scope(timers_, "monitoring");
+  FlowResidual residual(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
+  residual.evaluate(domain_->state);
+  return residualNorms(domain_->context, domain_->state, residual, steadiness_.time());
+}
+
 // One object; null where it is not known.
-std::string FlowLoop::steadyJson() const {
+std::string FlowLoop::steadyJson(const std::vector<ResidualNorm>& residual) const {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const auto whole = [&](Steadiness::Norm norm) {
     const auto change = steadiness_.change(norm);
@@ -152,6 +160,9 @@ std::string FlowLoop::steadyJson() const {
   json.field("residence_time_s", steadiness_.time()).field("change", whole(Steadiness::Norm::Maximum));
   json.field("change_rms", whole(Steadiness::Norm::Rms));
   json.field("period_s", steadiness_.periodicity() ? steadiness_.periodicity()->period : unknown);
+  json.key("residual").beginObject();
+  for (const ResidualNorm& norm : residual) json.field(norm.equation.c_str(), norm.value);
+  json.endObject();
   json.endObject();
   return json.text();
 }
@@ -179,6 +190,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   closing.steps = steps_ - earlierSteps_;
   closing.earlierSteps = earlierSteps_;
   closing.wallTime = wallTime;
+  const std::vector<ResidualNorm> residual = residualNow();
   measure(record);
   closing.stages = record.stages;
   closing.peakMemoryPerRank = record.peakMemoryPerRank;
@@ -186,7 +198,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
     if (const auto imbalance = op->imbalance())
       closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
   count(record);
-  if (holder() == nullptr) record.resultsJson = steadyJson();
+  if (holder() == nullptr) record.resultsJson = steadyJson(residual);
   const auto steepness = flow::flameSteepness(domain_->context, domain_->state);
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);
@@ -201,6 +213,8 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   for (const Operator* op : operators_)
     for (const std::string& line : op->closingLines()) fmt::print("{}\n", line);
   for (const std::string& line : steadyLines()) fmt::print("{}\n", line);
+  if (const std::string text = residualText(residual, domain_->mesh.dimension); !text.empty())
+    fmt::print("residual, of the throughflow: {}\n", text);
   for (const Budget::Line& line : last_.budget)
     fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
   fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} at the end (nothing is clipped)\n",

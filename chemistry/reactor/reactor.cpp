@@ -20,11 +20,6 @@ using Event = ConstantPressureReactor::Event;
 // Largest deviation of the sum of mass fractions that may be put down to round-off and removed by rescaling.
 constexpr double kSumTolerance = 1e-9;
 
-// Errors of the tolerance's size stay in the range where rates are smooth.
-double leastFraction(const ConstantPressureReactor::Options& options) {
-  return -100 * options.absoluteTolerance;
-}
-
 }  // namespace
 
 ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options& optionsIn)
@@ -32,11 +27,11 @@ ConstantPressureReactor::Impl::Impl(const Mechanism& mechanismIn, const Options&
       options(optionsIn),
       n(mechanismIn.numSpecies()),
       counted(n),
-      system(mechanismIn, nullptr, leastFraction(optionsIn)),
+      system(mechanismIn, nullptr, optionsIn.leastFraction()),
       rosenbrock(system),
       bdf(system) {
   for (auto* work : {&start, &predicted, &chemical, &chemicalEnd}) work->assign(n + 1, 0.0);
-  if (options.rosenbrockSteps > 0 && ReactorLanes::covers(mechanism)) lanes.emplace(mechanism, leastFraction(options));
+  if (options.rosenbrockSteps > 0 && ReactorLanes::covers(mechanism)) lanes.emplace(mechanism, options.leastFraction());
 }
 
 void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) const {

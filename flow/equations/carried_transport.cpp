@@ -152,6 +152,15 @@ void CarriedTransport::presentFlux(const State& state, const FaceState& faces, s
   leaveOut(state, flux);
 }
 
+void CarriedTransport::presentFlux(const State& state, const Gas& gas, std::span<double> flux) {
+  findDrift(gas);
+  convectiveFlux(state, gas);
+  std::vector<double> conductance(flux.size());
+  std::ranges::fill(flux, 0.0);
+  presentFlux(state, gas.faces, conductance, flux);
+  for (std::size_t i = 0; i < flux.size(); ++i) flux[i] += flux_[i];
+}
+
 // Through the boundary, beside what is there already.
 void CarriedTransport::addCrossed(std::span<const double> flux) {
   const std::size_t first = flux.size() / static_cast<std::size_t>(context_.mesh.faces) *

@@ -41,6 +41,10 @@ class CarriedTransport {
   // Collective.
   void advance(State& state, const Gas& gas, double dt);
 
+  // Collective. Flux (per s, scalars a face, from low to high or outwards) of a state as it is, which is the gas's
+  // start and mean.
+  void presentFlux(const State& state, const Gas& gas, std::span<double> flux);
+
   // Flux of the last step, per s, scalars a face, positive from low to high or outwards: all that crosses the boundary,
   // between cells the convective part.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }

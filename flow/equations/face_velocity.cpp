@@ -70,37 +70,57 @@ void FaceVelocity::removeSmoothExcess() {
   for (int face = 0; face < m.interiorFaces; ++face) excess_[face] -= meanAlong(m.normal[face], face, common_);
 }
 
+// Of the cells around an interior face, at its centre; keeps the part of Mesh::offset for take().
+double FaceVelocity::ofCells(int face, const Cells& cells) {
+  const Mesh& m = context_.mesh;
+  const int d = m.dimension;
+  const Vector3& normal = m.normal[face];
+  const double mean = meanAlong(normal, face, cells.velocity);
+  if (!m.isSkewed()) return mean;
+  double ofOffset = 0.0;
+  for (int i = 0; i < d; ++i) ofOffset += normal[i] * faceSlope(m, face, m.offset[face], cells.velocityGradient, d, i);
+  offset_[face] = ofOffset;
+  return mean;
+}
+
+double FaceVelocity::ofBoundary(int face, const Cells& cells) const {
+  const Mesh& m = context_.mesh;
+  const int d = m.dimension, low = m.low[face];
+  const BoundaryCondition& boundary = context_.boundaryOf(face);
+  if (boundary.kind == BoundaryKind::Inlet) return -context_.boundarySpeed(face);
+  if (boundary.kind != BoundaryKind::Outlet) return 0.0;
+  // Extrapolated along the cell's own slope.
+  double outward = slopeAlong(m.normal[face], &cells.velocity[d * low], d);
+  for (int i = 0; i < d; ++i)
+    outward += m.normal[face][i] * slopeAlong(m.step[face], &cells.velocityGradient[(low * d + i) * d], d);
+  return outward;
+}
+
 void FaceVelocity::predict(const Cells& cells, std::span<const double> inverseDensity, double dt,
                            std::span<double> faceVelocity) {
   const Mesh& m = context_.mesh;
-  const int d = m.dimension;
   computeExcess(cells, inverseDensity);
   for (int face = 0; face < m.interiorFaces; ++face) {
-    const Vector3& normal = m.normal[face];
     // The deviation's equation with constant coefficients, exactly.
     const double decayed = dt * mean(face, cells.relaxation);
     const double lost = -std::expm1(-decayed);
     const double deviation =
         (1.0 - lost) * deviation_[face] + dt * excess_[face] * (decayed > 0.0 ? lost / decayed : 1.0);
-    faceVelocity[face] = meanAlong(normal, face, cells.velocity) + deviation;
-    if (!m.isSkewed()) continue;
-    double ofOffset = 0.0;
-    for (int i = 0; i < d; ++i)
-      ofOffset += normal[i] * faceSlope(m, face, m.offset[face], cells.velocityGradient, d, i);
-    offset_[face] = ofOffset;
-    faceVelocity[face] += ofOffset;
+    faceVelocity[face] = ofCells(face, cells) + deviation;
+    if (m.isSkewed()) faceVelocity[face] += offset_[face];
   }
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    const BoundaryCondition& boundary = context_.boundaryOf(face);
-    const int low = m.low[face];
-    // Extrapolated along the cell's own slope.
-    double outward = slopeAlong(m.normal[face], &cells.velocity[d * low], d);
-    for (int i = 0; i < d; ++i)
-      outward += m.normal[face][i] * slopeAlong(m.step[face], &cells.velocityGradient[(low * d + i) * d], d);
-    faceVelocity[face] = boundary.kind == BoundaryKind::Outlet  ? outward
-                         : boundary.kind == BoundaryKind::Inlet ? -context_.boundarySpeed(face)
-                                                                : 0.0;
+  for (int face = m.interiorFaces; face < m.faces; ++face) faceVelocity[face] = ofBoundary(face, cells);
+}
+
+void FaceVelocity::settled(const Cells& cells, std::span<const double> inverseDensity, std::span<double> faceVelocity) {
+  const Mesh& m = context_.mesh;
+  computeExcess(cells, inverseDensity);
+  for (int face = 0; face < m.interiorFaces; ++face) {
+    const double relaxation = mean(face, cells.relaxation);
+    faceVelocity[face] = ofCells(face, cells) + (relaxation > 0.0 ? excess_[face] / relaxation : 0.0);
+    if (m.isSkewed()) faceVelocity[face] += offset_[face];
   }
+  for (int face = m.interiorFaces; face < m.faces; ++face) faceVelocity[face] = ofBoundary(face, cells);
 }
 
 void FaceVelocity::take(std::span<const double> velocity, std::span<const double> faceVelocity) {

@@ -36,6 +36,9 @@ class FaceVelocity {
   // Normal velocity (m/s) of every face after dt under the old pressure. `inverseDensity`: 1/rho at each face.
   void predict(const Cells& cells, std::span<const double> inverseDensity, double dt, std::span<double> faceVelocity);
 
+  // The same after deviations have come to rest: what the faces have in a steady flow.
+  void settled(const Cells& cells, std::span<const double> inverseDensity, std::span<double> faceVelocity);
+
   // After the projection: takes what faces deviate by from the cells' new velocities (halo filled). With
   // the end of the step it is what the next one begins with.
   void take(std::span<const double> velocity, std::span<const double> faceVelocity);
@@ -47,6 +50,8 @@ class FaceVelocity {
  private:
   void computeExcess(const Cells& cells, std::span<const double> inverseDensity);
   void removeSmoothExcess();
+  [[nodiscard]] double ofCells(int face, const Cells& cells);
+  [[nodiscard]] double ofBoundary(int face, const Cells& cells) const;
   [[nodiscard]] double mean(int face, std::span<const double> values) const;
   // Part along a direction of vectors in the cells, interpolated to a face.
   [[nodiscard]] double meanAlong(const Vector3& direction, int face, std::span<const double> vectors) const;

@@ -1,12 +1,12 @@
 // The part of the viscous stress that the implicit Laplacian of each velocity component leaves out.
 #include <algorithm>
 
-#include "flow/equations/momentum.hpp"
+#include "flow/equations/momentum_forces.hpp"
 
 namespace lampblack::flow {
 
 // mu (grad u)^T - 2/3 mu (div u) I, and the hoop stress's dilatation part.
-void Momentum::explicitStress(const MomentumSweep& sweep) {
+void MomentumForces::explicitStress(const MomentumSweep& sweep) {
   const Mesh& m = context_.mesh;
   const int d = dimension_;
   const std::span<const double> viscosity = sweep.viscosity;
@@ -29,7 +29,7 @@ void Momentum::explicitStress(const MomentumSweep& sweep) {
 
 // At outlets the Laplacian part of the stress is that of the cell's own slope, and the gas that leaves has the velocity
 // along it.
-void Momentum::outletStress(const MomentumSweep& sweep) {
+void MomentumForces::outletStress(const MomentumSweep& sweep) {
   const Mesh& m = context_.mesh;
   const int d = dimension_;
   for (int face = m.interiorFaces; face < m.faces; ++face) {
@@ -44,7 +44,7 @@ void Momentum::outletStress(const MomentumSweep& sweep) {
   }
 }
 
-const VelocityGradient& Momentum::velocityGradient(const State& state) {
+const VelocityGradient& MomentumForces::velocityGradient(const State& state) {
   gradient_.setBoundary(state.velocity);
   gradient_.compute(state.velocity);
   gradient_.updateHalo();
@@ -53,7 +53,7 @@ const VelocityGradient& Momentum::velocityGradient(const State& state) {
 
 // N, by the gas on what lies beyond: the stress that addBoundary(), explicitStress() and outletStress() move the gas
 // by.
-Vector3 Momentum::boundaryTraction(int face, const State& state, double viscosity) const {
+Vector3 MomentumForces::boundaryTraction(int face, const State& state, double viscosity) const {
   const Mesh& m = context_.mesh;
   const int d = dimension_, cell = m.low[face];
   const GivenVelocity given = givenVelocity(context_.boundaryOf(face));
@@ -71,10 +71,10 @@ Vector3 Momentum::boundaryTraction(int face, const State& state, double viscosit
   return scaled(slope, -viscosity * m.area[face]);
 }
 
-std::vector<double> Momentum::boundaryPressures(const State& state) {
+std::vector<double> MomentumForces::boundaryPressures(const State& state) {
   outletPressures(state);
   std::vector<double> pressures(boundaryPressure_.size());
-  force_.atBoundary(state.pressure, boundaryPressure_, pressures);
+  pressureForce_.atBoundary(state.pressure, boundaryPressure_, pressures);
   return pressures;
 }
 

@@ -140,7 +140,7 @@ void Swirl::addBoundaries(const MomentumSweep& sweep) {
   }
 }
 
-void Swirl::advance(State& state, const MomentumSweep& sweep) {
+void Swirl::assemble(const State& state, const MomentumSweep& sweep) {
   const Mesh& m = context_.mesh;
   for (int c = 0; c < m.cells; ++c) angularMomentum_[c] = m.centre[c][0] * sweep.mean.swirl[c];
   setBoundaries(sweep.mean);
@@ -155,6 +155,18 @@ void Swirl::advance(State& state, const MomentumSweep& sweep) {
   for (int c = 0; c < m.cells; ++c) excess_[c] = 0.5 * (sweep.start.swirl[c] - state.swirl[c]) / m.centre[c][0];
   diffusion_.subtract(1, diagonal_, conductance_, excess_, source_);
   for (int c = 0; c < m.cells; ++c) turning_[c] = state.swirl[c] / m.centre[c][0];
+}
+
+void Swirl::rates(const State& state, const MomentumSweep& sweep, std::span<double> moment) {
+  assemble(state, sweep);
+  diffusion_.subtract(1, diagonal_, conductance_, turning_, source_);
+  std::ranges::copy(source_, moment.begin());
+  setCentrifugal(state, state);
+}
+
+void Swirl::advance(State& state, const MomentumSweep& sweep) {
+  const Mesh& m = context_.mesh;
+  assemble(state, sweep);
   for (int c = 0; c < m.owned; ++c) {
     const double r = m.centre[c][0];
     const double inertia = sweep.start.density[c] * m.volume[c] * r / sweep.dt;

@@ -25,7 +25,12 @@ class Swirl {
   // is filled. The centrifugal acceleration is that of the middle of the step afterwards, with one sweep of its end.
   void advance(State& state, const MomentumSweep& sweep);
 
-  // m/s2, outwards, in any cell; set by advance() and by setCentrifugal(), to that of the mean of two swirls.
+  // Collective. N m, the moment about the axis on the gas of each owned cell in a state, which is the sweep's start and
+  // mean. The centrifugal acceleration is that of the state afterwards.
+  void rates(const State& state, const MomentumSweep& sweep, std::span<double> moment);
+
+  // m/s2, outwards, in any cell; set by advance(), by rates() and by setCentrifugal(), to that of the mean of two
+  // swirls.
   [[nodiscard]] double centrifugal(int cell) const { return centrifugal_[static_cast<std::size_t>(cell)]; }
   void setCentrifugal(const State& a, const State& b);
 
@@ -34,6 +39,7 @@ class Swirl {
   void completeOuterSlopes(std::span<const double> density, std::span<double> gradient) const;
 
  private:
+  void assemble(const State& state, const MomentumSweep& sweep);
   void setBoundaries(const State& mean);
   void addInside(const MomentumSweep& sweep);
   void addBoundaries(const MomentumSweep& sweep);

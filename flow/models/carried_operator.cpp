@@ -211,6 +211,25 @@ void CarriedOperator::endSweep(State& state) {
   }
 }
 
+void CarriedOperator::addRates(const State& state, State::Balance& rates) {
+  const std::vector<std::size_t>& species = model_.exchanged();
+  const auto W = context_.mechanism.molecularWeights();
+  std::vector<double> amounts(scalars_), exchanged(species.size());
+  for (int c = 0; c < context_.mesh.owned; ++c) {
+    ParticleGas gas = gasOfCell(context_, state, c, 0.0, species, concentrations_);
+    if (model_.idle(gas, densities(state, c))) continue;
+    gas = gasOfCell(context_, state, c, viscosityOf(state, c), species, concentrations_);
+    model_.sources(gas, densities(state, c), amounts, exchanged);
+    model_.enthalpies(state.temperature[c], enthalpy_, slope_);
+    for (std::size_t s = 0; s < scalars_; ++s) {
+      rates.carried[at(c, state.scalars.size()) + first_ + s] += amounts[s];
+      rates.enthalpy[c] -= amounts[s] * enthalpy_[s];
+    }
+    for (std::size_t i = 0; i < species.size(); ++i)
+      rates.exchange(static_cast<std::size_t>(c), species[i], exchanged[i] * W[species[i]]);
+  }
+}
+
 void CarriedOperator::saveOrLoad(StateArchive& archive) {
   if (archive.loading()) lastStep_ = 0.0;  // the rates are what endSweep() left
   work_.saveOrLoad(archive);

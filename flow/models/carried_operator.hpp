@@ -48,6 +48,7 @@ class CarriedOperator : public Operator {
   [[nodiscard]] const char* name() const override { return "particles"; }
   void advance(State& state, double time, double dt) override;
   void endSweep(State& state) override;
+  void addRates(const State& state, State::Balance& rates) override;
   void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;
 

@@ -14,26 +14,32 @@ RadiationOperator::RadiationOperator(const FlowContext& context, double surround
       loss_(start_),
       X_(context.mechanism.numSpecies()) {}
 
-void RadiationOperator::evaluate(const State& state) {
+void RadiationOperator::evaluate(const State& state, std::span<double> loss) {
   const std::size_t n = X_.size();
   const std::size_t scalars = state.scalars.size();
   const auto first = static_cast<std::size_t>(block_.first), count = static_cast<std::size_t>(block_.count);
-  for (std::size_t c = 0; c < loss_.size(); ++c) {
+  for (std::size_t c = 0; c < loss.size(); ++c) {
     const double T = state.temperature[c];
     context_.thermo.massToMole({&state.Y[c * n], n}, X_);
     double absorption = radiation_.absorption(T, state.thermodynamicPressure, X_);
     if (particles_) absorption += particles_(T, {state.carried.data() + c * scalars + first, count});
-    loss_[c] = radiation_.loss(absorption, T);
+    loss[c] = radiation_.loss(absorption, T);
   }
+}
+
+void RadiationOperator::addRates(const State& state, State::Balance& rates) {
+  std::vector<double> loss(loss_.size());
+  evaluate(state, loss);
+  for (std::size_t c = 0; c < loss.size(); ++c) rates.enthalpy[c] -= loss[c];
 }
 
 // The heat is taken by transport.
 void RadiationOperator::advance(State& state, double, double) {
-  evaluate(state);
+  evaluate(state, loss_);
 }
 
 void RadiationOperator::endStep(State& state) {
-  evaluate(state);
+  evaluate(state, loss_);
   start_ = loss_;
 }
 

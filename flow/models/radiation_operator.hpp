@@ -23,6 +23,7 @@ class RadiationOperator : public Operator {
 
   [[nodiscard]] const char* name() const override { return "radiation"; }
   void advance(State& state, double time, double dt) override;
+  void addRates(const State& state, State::Balance& rates) override;
   void endSweep(State& state) override;
   void endStep(State& state) override;
 
@@ -31,7 +32,7 @@ class RadiationOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
 
  private:
-  void evaluate(const State& state);
+  void evaluate(const State& state, std::span<double> loss);
 
   const FlowContext& context_;
   ThinRadiation radiation_;

@@ -7,7 +7,10 @@
 #include <utility>
 
 #include "chemistry/reactor/reactor_failure.hpp"
+#include "chemistry/reactor/reactor_system.hpp"
+#include "core/errors.hpp"
 #include "core/group_failure.hpp"
+#include "flow/cell_errors.hpp"
 #include "flow/models/constant_pressure_cells.hpp"
 
 namespace lampblack::flow {
@@ -44,7 +47,7 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options, 
       initialStep_(static_cast<std::size_t>(context.mesh.owned)),
       isLimited_(initialStep_.size()),
       heatRelease_(initialStep_.size()),
-      growthRate_(context.mechanism, -100.0 * options_.reactor.absoluteTolerance),
+      growthRate_(context.mechanism, options_.reactor.leastFraction()),
       outruns_(initialStep_.size()),
       isTaken_(initialStep_.size()),
       grows_(initialStep_.size()),
@@ -259,6 +262,22 @@ double heatRelease(const FlowContext& context, const State& state, std::size_t c
   double heat = 0.0;
   for (std::size_t k = 0; k < n; ++k) heat -= enthalpies[k] * state.balance.reactions[cell * n + k];
   return heat;
+}
+
+// As the reactor evaluates them.
+void ReactionOperator::addRates(const State& state, State::Balance& rates) {
+  const auto n = static_cast<std::size_t>(state.species);
+  ReactorSystem system(context_.mechanism, nullptr, options_.reactor.leastFraction());
+  system.setConditions(state.thermodynamicPressure, {});
+  std::vector<double> y(n + 1), rate(n + 1);
+  inEachCell(context_.mesh, [&](int c) {
+    const auto cell = static_cast<std::size_t>(c);
+    std::copy_n(&state.Y[cell * n], n, y.begin());
+    y[n] = state.temperature[cell];
+    if (!system.chemicalRates(y.data(), rate.data()))
+      throw NumericsError("the reactions have no rates: " + system.refusal());
+    for (std::size_t k = 0; k < n; ++k) rates.reactions[cell * n + k] += state.density[cell] * rate[k];
+  });
 }
 
 void ReactionOperator::endStep(State& state) {

@@ -49,15 +49,12 @@ void TransportOperator::addTendency(const State& mean, const State& state, int c
   state.balance.ofSpecies(static_cast<std::size_t>(cell), to.brought);
   for (std::size_t k = 0; k < n; ++k) to.brought[k] = m.volume[cell] * (to.brought[k] - reactions[k]);
   to.heat = m.volume[cell] * state.balance.enthalpy[cell];
-  std::vector<double> diffuses(n);
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
     const int face = m.faceOfCell[i];
     if (m.low[face] == m.high[face]) continue;
     const double sign = m.low[face] == cell ? -1.0 : 1.0, flux = state.massFlux[face];
-    faces_.interpolate(mean, face, flux, row_);
-    speciesDiffusion_.flux(face, mean.Y, diffuses);
-    for (std::size_t k = 0; k < n; ++k) to.brought[k] += sign * (flux * row_[k] + diffuses[k]);
-    to.heat += sign * (flux * faces_.enthalpy[face] + enthalpyFlux(mean, face, diffuses) + conducted[face]);
+    to.heat += sign * (fluxes_.through(mean, face, flux, row_) + conducted[face]);
+    for (std::size_t k = 0; k < n; ++k) to.brought[k] += sign * row_[k];
   }
 }
 

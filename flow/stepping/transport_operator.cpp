@@ -18,6 +18,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
       diffusion_(context.mesh, context.halo),
       speciesDiffusion_(context, diffusion_),
       heatConduction_(context, diffusion_),
+      fluxes_(context, faces_, speciesDiffusion_),
       expansion_(context),
       momentum_(context, state.swirls, options.velocityScheme),
       carried_(context, state, diffusion_),
@@ -36,7 +37,6 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
   faceVelocity_.assign(faces, 0.0);
   boundaryFlows_.assign(3 * context.boundaries.size(), 0.0);
   row_.resize(n);
-  speciesEnthalpy_.resize(n);
 }
 
 void TransportOperator::initialise(State& state, double dt) {
@@ -50,7 +50,7 @@ void TransportOperator::initialise(State& state, double dt) {
   std::ranges::fill(content_, 0.0);
   for (int face = 0; face < m.faces; ++face) {
     speciesDiffusion_.flux(face, state.Y, row_);
-    heat_.enthalpy[face] = enthalpyFlux(state, face, row_);
+    heat_.enthalpy[face] = fluxes_.ofDiffusion(state, face, row_);
     addFaceFlux(m, face, row_, 1.0, content_);
   }
   heatConduction_.prepare(state, properties_);
@@ -158,19 +158,6 @@ void TransportOperator::addCompression() {
   compression_ = expansion_.pressureRise();
 }
 
-// W, of species that diffuse through a face.
-double TransportOperator::enthalpyFlux(const State& mean, int face, std::span<const double> species) {
-  const Mesh& m = context_.mesh;
-  const int low = m.low[face];
-  const double T = m.high[face] >= 0 ? m.lowWeight[face] * mean.temperature[low] +
-                                           (1.0 - m.lowWeight[face]) * mean.temperature[m.high[face]]
-                                     : faces_.boundaryTemperature()[face - m.interiorFaces];
-  context_.thermo.speciesEnthalpies(T, speciesEnthalpy_);
-  double sum = 0.0;
-  for (std::size_t k = 0; k < species.size(); ++k) sum += species[k] * speciesEnthalpy_[k];
-  return sum;
-}
-
 // Diffusion and conduction of the sweep; from the second on corrected so that they become the mean of those at both
 // ends.
 void TransportOperator::advanceDiffusion(const State& mean, State& state, double dt) {
@@ -185,7 +172,7 @@ void TransportOperator::advanceDiffusion(const State& mean, State& state, double
   SpeciesDiffusion::Gas gas{state.start.Y, state.Y, newMass_, content_};
   if (corrected) gas = {state.Y, solution_, newMass_, content_, state.start.Y};
   diagnostics_.speciesIterations = speciesDiffusion_.advance(gas, dt, [&](int face, std::span<const double> row) {
-    heat_.enthalpy[face] = enthalpyFlux(mean, face, row);
+    heat_.enthalpy[face] = fluxes_.ofDiffusion(mean, face, row);
     if (face >= m.interiorFaces)
       std::ranges::copy(row,
                         boundaryFlux_.begin() + (face - m.interiorFaces) * static_cast<std::ptrdiff_t>(row.size()));

@@ -22,6 +22,7 @@
 #include "flow/equations/carried_transport.hpp"
 #include "flow/equations/expansion.hpp"
 #include "flow/equations/face_state.hpp"
+#include "flow/equations/gas_fluxes.hpp"
 #include "flow/equations/heat_conduction.hpp"
 #include "flow/equations/momentum.hpp"
 #include "flow/equations/species_diffusion.hpp"
@@ -99,10 +100,12 @@ class TransportOperator : public Operator {
   [[nodiscard]] Integrals integrals(const State& state);
   // Of the state's velocity, until the next step. Collective.
   [[nodiscard]] const VelocityGradient& velocityGradient(const State& state) {
-    return momentum_.velocityGradient(state);
+    return momentum_.forces().velocityGradient(state);
   }
   // Pa at each boundary face: what presses on it (PressureForce::atBoundary).
-  [[nodiscard]] std::vector<double> boundaryPressures(const State& state) { return momentum_.boundaryPressures(state); }
+  [[nodiscard]] std::vector<double> boundaryPressures(const State& state) {
+    return momentum_.forces().boundaryPressures(state);
+  }
   // Of each boundary, in the context's order. Collective.
   [[nodiscard]] std::vector<BoundaryTotals> boundaryTotals(const State& state);
 
@@ -119,7 +122,6 @@ class TransportOperator : public Operator {
   void predictContents(const State& start, const State& mean, const State& state, double dt);
   void correctContents(const State& mean, State& state, double dt);
   void addCompression();
-  [[nodiscard]] double enthalpyFlux(const State& mean, int face, std::span<const double> species);
   void advanceDiffusion(const State& mean, State& state, double dt);
   void finish(State& state);
   void recordBoundary(const State& state, double dt);
@@ -133,6 +135,7 @@ class TransportOperator : public Operator {
   ImplicitDiffusion diffusion_;
   SpeciesDiffusion speciesDiffusion_;
   HeatConduction heatConduction_;
+  GasFluxes fluxes_;
   Expansion expansion_;
   Momentum momentum_;
   CarriedTransport carried_;
@@ -162,7 +165,7 @@ class TransportOperator : public Operator {
   HeatFluxes heat_;                   // of the sweep
   std::vector<double> boundaryFlux_;  // kg/s, species a boundary face: what diffuses in the sweep
   std::vector<double> faceVelocity_;  // m/s
-  std::vector<double> row_, speciesEnthalpy_;
+  std::vector<double> row_;
 };
 
 }  // namespace lampblack::flow

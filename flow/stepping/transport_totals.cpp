@@ -49,7 +49,7 @@ double squaredVorticity(const Mesh& m, const VelocityGradient& gradient, int cel
 TransportOperator::Integrals TransportOperator::integrals(const State& state) {
   const Mesh& m = context_.mesh;
   const int d = m.dimension;
-  const VelocityGradient& gradient = momentum_.velocityGradient(state);
+  const VelocityGradient& gradient = momentum_.forces().velocityGradient(state);
   const Turning turning = state.swirls ? turningOf(context_, state) : Turning{};
   std::array<double, 2> sums{0.0, 0.0};
   for (int c = 0; c < m.owned; ++c) {
@@ -66,8 +66,8 @@ TransportOperator::Integrals TransportOperator::integrals(const State& state) {
 std::vector<BoundaryTotals> TransportOperator::boundaryTotals(const State& state) {
   constexpr std::size_t width = 10;
   const Mesh& m = context_.mesh;
-  momentum_.velocityGradient(state);
-  const std::vector<double> pressure = momentum_.boundaryPressures(state);
+  momentum_.forces().velocityGradient(state);
+  const std::vector<double> pressure = momentum_.forces().boundaryPressures(state);
   std::vector<double> sums(width * context_.boundaries.size(), 0.0);
   for (std::size_t b = 0; b < context_.boundaries.size(); ++b)
     for (std::size_t i = 0; i < 3; ++i) sums[width * b + 1 + i] = boundaryFlows_[3 * b + i];
@@ -75,7 +75,7 @@ std::vector<BoundaryTotals> TransportOperator::boundaryTotals(const State& state
     const int b = face - m.interiorFaces;
     double* sum = &sums[width * static_cast<std::size_t>(m.patch[b])];
     sum[0] += m.area[face];
-    const Vector3 friction = momentum_.boundaryTraction(face, state, properties_.boundaryViscosity[b]);
+    const Vector3 friction = momentum_.forces().boundaryTraction(face, state, properties_.boundaryViscosity[b]);
     for (std::size_t i = 0; i < 3; ++i) {
       sum[4 + i] += pressure[b] * m.area[face] * m.normal[face][i];
       sum[7 + i] += friction[i];

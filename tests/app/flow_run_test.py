@@ -57,6 +57,11 @@ def check_steady(program, folder, ranks) -> None:
     assert found["steady"] is True and tolerance / 2 < found["change"] < tolerance, found
     assert found["change"] == float(last["steady_change [1]"]) and found["residence_time_s"] == time, (found, last)
     assert found["period_s"] is None and last["steady_period [s]"] == "nan", (found, last)
+    # The force of the sine that is left, by what it has changed, over the momentum that the gas brings in the time.
+    amplitude = 0.9 * found["change"] / math.cos(math.pi / 20) / math.expm1(rate * time)
+    left = rate * time * 2 / math.pi * amplitude / 0.95
+    assert abs(found["residual"]["momentum"] / left - 1) < 0.05, (found, left)
+    assert f"residual, of the throughflow: mass {found['residual']['mass']:.1e}, mass fluxes" in result.out, result.out
     assert f"steady at t = {end:.6g} s (time.steady.tolerance 0.002, maximum norm)" in result.out, result.out
     assert "in the last 0.003 s (time.steady.time) fields changed by" in result.out, result.out
     assert not result.err, result.err

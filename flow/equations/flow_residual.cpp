@@ -1,0 +1,115 @@
+#include "flow/equations/flow_residual.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "flow/discretisation/face_fluxes.hpp"
+#include "flow/equations/momentum.hpp"
+
+namespace lampblack::flow {
+
+FlowResidual::FlowResidual(const FlowContext& context, const State& state, VelocityScheme scheme,
+                           std::vector<Operator*> operators)
+    : context_(context),
+      operators_(std::move(operators)),
+      faces_(context, state.species, state.carriedCount()),
+      diffusion_(context.mesh, context.halo),
+      speciesDiffusion_(context, diffusion_),
+      heatConduction_(context, diffusion_),
+      fluxes_(context, faces_, speciesDiffusion_),
+      carried_(context, diffusion_, state.carriedCount()),
+      forces_(context, state.swirls, scheme),
+      faceVelocity_(context),
+      conducted_(static_cast<std::size_t>(context.mesh.faces)),
+      acceleration_(state.velocity.size()),
+      velocityOfFaces_(conducted_.size()),
+      row_(static_cast<std::size_t>(state.species)) {
+  const auto owned = static_cast<std::size_t>(context.mesh.owned);
+  const auto n = static_cast<std::size_t>(state.species), scalars = state.scalars.size();
+  rates_.mass.resize(owned);
+  rates_.species.resize(owned * n);
+  rates_.enthalpy.resize(owned);
+  rates_.carried.resize(owned * scalars);
+  rates_.momentum.resize(owned * static_cast<std::size_t>(state.dimension));
+  if (state.swirls) rates_.angularMomentum.resize(owned);
+  rates_.massFlux.resize(conducted_.size());
+  rates_.made = {std::vector<double>(owned * n), {}, {}, std::vector<double>(owned), rates_.carried};
+}
+
+const FlowResidual::Rates& FlowResidual::evaluate(const State& state) {
+  collectively(context_.mesh.comm, [&] { properties_.update(context_, state); });
+  speciesDiffusion_.prepare(state, properties_);
+  heatConduction_.prepare(state, properties_);
+  faces_.prepare(state, state.Y);
+  for (std::vector<double>* all : {&rates_.mass, &rates_.species, &rates_.enthalpy, &rates_.carried})
+    std::ranges::fill(*all, 0.0);
+  addGas(state);
+  addMade(state);
+  addCarried(state);
+  findForces(state);
+  return rates_;
+}
+
+void FlowResidual::addGas(const State& state) {
+  const Mesh& m = context_.mesh;
+  heatConduction_.presentFlux(state, conducted_);
+  for (int face = 0; face < m.faces; ++face) {
+    const double flux = state.massFlux[face];
+    const double enthalpy = fluxes_.through(state, face, flux, row_) + conducted_[face];
+    addFaceFlux(m, face, row_, 1.0, rates_.species);
+    addFaceFlux(m, face, enthalpy, 1.0, rates_.enthalpy);
+    addFaceFlux(m, face, flux, 1.0, rates_.mass);
+  }
+}
+
+void FlowResidual::addMade(const State& state) {
+  const Mesh& m = context_.mesh;
+  const std::size_t n = row_.size(), scalars = state.scalars.size();
+  std::ranges::fill(rates_.made.reactions, 0.0);
+  rates_.made.clear();
+  for (Operator* op : operators_) op->addRates(state, rates_.made);
+  for (int c = 0; c < m.owned; ++c) {
+    const auto cell = static_cast<std::size_t>(c);
+    rates_.made.ofSpecies(cell, row_);
+    for (std::size_t k = 0; k < n; ++k) {
+      rates_.species[cell * n + k] += m.volume[c] * row_[k];
+      rates_.mass[cell] += m.volume[c] * row_[k];
+    }
+    rates_.enthalpy[cell] += m.volume[c] * rates_.made.enthalpy[cell];
+    for (std::size_t s = 0; s < scalars; ++s)
+      if (state.scalars[s].isTransported)
+        rates_.carried[cell * scalars + s] += m.volume[c] * rates_.made.carried[cell * scalars + s];
+  }
+}
+
+void FlowResidual::addCarried(const State& state) {
+  if (std::ranges::none_of(state.scalars, &CarriedScalar::isTransported)) return;
+  const Mesh& m = context_.mesh;
+  const std::size_t scalars = state.scalars.size();
+  for (int face = 0; face < m.faces; ++face)
+    velocityOfFaces_[face] = m.area[face] > 0.0 ? state.massFlux[face] / (faces_.density[face] * m.area[face]) : 0.0;
+  std::vector<double> flux(static_cast<std::size_t>(m.faces) * scalars);
+  carried_.presentFlux(
+      state, {state, state, properties_.viscosity, faces_, velocityOfFaces_, {}, properties_, conducted_}, flux);
+  for (std::size_t i = 0; i < flux.size(); ++i)
+    if (!state.scalars[i % scalars].isTransported) flux[i] = 0.0;
+  addFaceFluxes(m, flux, static_cast<int>(scalars), 1.0, rates_.carried);
+}
+
+void FlowResidual::findForces(const State& state) {
+  const Mesh& m = context_.mesh;
+  const int d = state.dimension;
+  forces_.rates(state, {state, state, properties_.viscosity, properties_.boundaryViscosity, {}, 0.0}, rates_.momentum,
+                rates_.angularMomentum);
+  forces_.acceleration(state.density, acceleration_);
+  std::vector<FieldView> known{{acceleration_, d}, {forces_.relaxation(), 1}};
+  context_.halo.update(known);
+  faceVelocity_.settled(
+      {state.velocity, acceleration_, forces_.relaxation(), state.pressure, forces_.gradient().values()},
+      inverseFaceDensity(m, state.density), velocityOfFaces_);
+  for (int face = 0; face < m.faces; ++face)
+    rates_.massFlux[face] = faces_.density[face] * velocityOfFaces_[face] * m.area[face] - state.massFlux[face];
+}
+
+}  // namespace lampblack::flow

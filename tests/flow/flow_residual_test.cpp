@@ -1,0 +1,183 @@
+// The rates of a state: none of a uniform flow, those by which small steps change it, and what is left of them where a
+// flow has become steady.
+#include "flow/equations/flow_residual.hpp"
+
+#include <gtest/gtest.h>
+
+#include "core/constants.hpp"
+#include "flow/models/radiation_operator.hpp"
+#include "flow/models/reaction_operator.hpp"
+#include "flow/steady/residual_norms.hpp"
+#include "flow/stepping/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_module.hpp"
+
+namespace lampblack::test {
+namespace {
+
+// A channel, open at both ends, with its operators.
+class ResidualOfChannel : public testing::Test {
+ protected:
+  Gas& gas = Gas::hydrogen();
+  std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  std::vector<double> fuel = gas.massFractions("H2: 0.3, O2: 0.15, N2: 0.5, H2O: 0.05");
+
+  static MeshSpec spec(const std::vector<Side>& sides) {
+    MeshSpec spec;
+    spec.geometry = Geometry::Planar;
+    spec.vertices = {gradedAxis(0.0, {{0.006, 8, 2.0}}), uniformAxis(0.012, 16), {}};
+    for (const Side& side : sides) spec.patches.push_back(side.patch);
+    return spec;
+  }
+  static std::vector<BoundaryCondition> conditions(const std::vector<Side>& sides) {
+    std::vector<BoundaryCondition> all;
+    for (const Side& side : sides) all.push_back(side.condition);
+    return all;
+  }
+  [[nodiscard]] std::vector<Side> sides(const std::vector<double>& Y, double temperature, bool slips) const {
+    Side wall = side(BoundaryKind::Wall, 0, true);
+    wall.condition.slip = slips;
+    return {side(BoundaryKind::Symmetry, 0, false), wall, opening(BoundaryKind::Inlet, 1, false, 0.5, temperature, Y),
+            opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, air)};
+  }
+  [[nodiscard]] Box box(const std::vector<double>& Y, double temperature, bool slips = false,
+                        MPI_Comm comm = MPI_COMM_WORLD) const {
+    const std::vector<Side> all = sides(Y, temperature, slips);
+    return {spec(all), conditions(all), {}, comm};
+  }
+  // Burning gas with something dispersed in it.
+  State burning(Box& b) const {
+    State state = b.state(
+        [&](const auto& x) {
+          const double hot = std::exp(-std::pow((x[1] - 0.005) / 0.003, 2) - std::pow((x[0] - 0.002) / 0.003, 2));
+          std::vector<double> Y = fuel;
+          for (std::size_t k = 0; k < Y.size(); ++k) Y[k] += (air[k] - fuel[k]) * 0.3 * std::cos(300.0 * x[1]);
+          return Box::Local{{0.05 * std::sin(500.0 * x[0]), 0.5 + 20.0 * x[0], 0.0}, 900.0 + 500.0 * hot, Y};
+        },
+        {{"dust", "1/m3", "", 0.55}, {"still", "1/m3", "", 0.0, false}});
+    for (int c = 0; c < b.mesh.cells; ++c) {
+      state.carried[at(2 * c)] = 1.0 + std::sin(400.0 * b.mesh.centre[at(c)][0] + 300.0 * b.mesh.centre[at(c)][1]);
+      state.carried[at(2 * c + 1)] = 3.0;
+      state.carriedDiffusivity[at(2 * c)] = 1e-5;
+    }
+    return state;
+  }
+};
+
+// Transport, reactions and radiation, in steps of one sweep.
+struct Steps {
+  Steps(Box& box, const State& state)
+      : transport(box.context, state), chemistry(box.context, {}), radiation(box.context, 298.0, nullptr) {}
+  std::vector<Operator*> all() { return {&transport, &chemistry, &radiation}; }
+  void end(State& state) {
+    for (Operator* op : all()) op->endStep(state);
+    for (Operator* op : all()) op->endSweep(state);
+  }
+  void take(State& state, double time, double dt) {
+    for (Operator* op : all()) op->advance(state, time, dt);
+    end(state);
+  }
+  TransportOperator transport;
+  ReactionOperator chemistry;
+  RadiationOperator radiation;
+};
+
+TEST_F(ResidualOfChannel, OfAUniformFlowIsRoundOff) {
+  Box b = box(air, 300.0, true);
+  State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 300.0, air}; }, {{"dust", "1/m3", "", 0.55}});
+  Steps steps(b, state);
+  steps.transport.initialise(state, 1e-5);
+  FlowResidual residual(b.context, state, VelocityScheme::Limited, steps.all());
+  residual.evaluate(state);
+  const double flow = 0.5 * 0.006 * state.density[0];  // kg/s
+  const FlowResidual::Rates& rates = residual.rates();
+  EXPECT_LT(largest(b.mesh, [&](int c) { return std::abs(rates.mass[at(c)]); }), 1e-9 * flow);
+  for (const ResidualNorm& norm : residualNorms(b.context, state, residual, 0.012 / 0.5))
+    // The gas that cold reactions make of air, over the least range of a mass fraction.
+    EXPECT_LT(norm.value, 1e-7) << norm.equation;
+}
+
+// What a step changes differs from the rates times its length by the square of that: half of the length, half of the
+// difference of the two rates. The mass flux, and with it all else, is that of the step's end.
+TEST_F(ResidualOfChannel, IsWhatAShortStepChanges) {
+  Box b = box(fuel, 900.0);
+  const auto n = gas.mechanism.numSpecies();
+  const std::vector<std::string> names{"species", "enthalpy", "carried", "momentum"};
+  // Differences of the rates by equation, over the largest rate in any cell.
+  const auto differences = [&](int count) {
+    const double dt = 8e-6 / count;
+    State state = burning(b);
+    Steps steps(b, state);
+    steps.transport.initialise(state, dt);
+    steps.end(state);
+    for (int i = 0; i < count; ++i) steps.take(state, i * dt, dt);
+    const State before = state;
+    steps.take(state, count * dt, dt);
+    FlowResidual residual(b.context, state, VelocityScheme::Limited, steps.all());
+    // Pressures are found with the velocities that they lead to.
+    State present = before;
+    present.pressure = state.pressure;
+    present.massFlux = state.massFlux;
+    const FlowResidual::Rates rates = residual.evaluate(present);
+    std::array<double, 4> most{}, differs{};
+    const auto compare = [&](std::size_t equation, double rate, double change) {
+      most[equation] = std::max(most[equation], std::abs(rate));
+      differs[equation] = std::max(differs[equation], std::abs(change / dt - rate));
+    };
+    for (int c = 0; c < b.mesh.owned; ++c) {
+      const double V = b.mesh.volume[at(c)];
+      for (std::size_t k = 0; k < n; ++k) {
+        const std::size_t i = at(c) * n + k;
+        compare(0, rates.species[i] / V, state.density[at(c)] * state.Y[i] - before.density[at(c)] * before.Y[i]);
+      }
+      compare(1, rates.enthalpy[at(c)] / V,
+              state.density[at(c)] * state.enthalpy[at(c)] - before.density[at(c)] * before.enthalpy[at(c)]);
+      compare(2, rates.carried[at(2 * c)] / V, state.carried[at(2 * c)] - before.carried[at(2 * c)]);
+      EXPECT_EQ(rates.carried[at(2 * c + 1)], 0.0);
+      for (int i = 0; i < 2; ++i)
+        compare(3, rates.momentum[at(2 * c + i)] / (V * before.density[at(c)]),
+                state.velocity[at(2 * c + i)] - before.velocity[at(2 * c + i)]);
+    }
+    std::array<double, 4> relative{};
+    for (std::size_t e = 0; e < relative.size(); ++e) relative[e] = maxOverRanks(differs[e]) / maxOverRanks(most[e]);
+    return relative;
+  };
+  const auto whole = differences(20), half = differences(40);
+  for (std::size_t e = 0; e < whole.size(); ++e) {
+    report(fmt::format("{}: {:.3g}, with half of the step {:.3g}", names[e], whole[e], half[e]));
+    EXPECT_LT(half[e], 0.06) << names[e];
+    EXPECT_NEAR(whole[e] / half[e], 2.0, 0.4) << names[e];
+  }
+}
+
+// A flow that has been marched until nothing changes has none left, on any number of ranks; one that has been marched
+// for a while has.
+TEST_F(ResidualOfChannel, IsGoneWhereAFlowIsSteady) {
+  const auto march = [&](int count, MPI_Comm comm) {
+    Box b = box(air, 400.0, false, comm);
+    State state = b.state(
+        [&](const auto&) {
+          return Box::Local{{0.0, 0.5}, 300.0, air};
+        },
+        {{"dust", "1/m3", "", 0.55}});
+    Steps steps(b, state);
+    const double dt = 5e-4;  // Courant number 0.33, and 0.5 where it is fastest
+    steps.transport.initialise(state, dt);
+    steps.end(state);
+    for (int i = 0; i < count; ++i) steps.take(state, i * dt, dt);
+    FlowResidual residual(b.context, state, VelocityScheme::Limited, steps.all());
+    residual.evaluate(state);
+    return residualNorms(b.context, state, residual, 0.012 / 0.5);
+  };
+  const auto early = march(20, MPI_COMM_WORLD), late = march(250, MPI_COMM_WORLD), alone = march(20, MPI_COMM_SELF);
+  ASSERT_EQ(early.size(), 4 + gas.mechanism.numSpecies() + 1);
+  for (std::size_t e = 0; e < early.size(); ++e) {
+    report(fmt::format("{}: {:.3g}, in the end {:.3g}", early[e].equation, early[e].value, late[e].value));
+    EXPECT_LT(late[e].value, 1e-6) << early[e].equation;
+    EXPECT_NEAR(early[e].value, alone[e].value, 1e-6 * alone[e].value + 1e-12) << early[e].equation;
+  }
+  for (std::size_t e = 0; e < 4; ++e) EXPECT_GT(early[e].value, 1e-5) << early[e].equation;
+}
+
+}  // namespace
+}  // namespace lampblack::test
