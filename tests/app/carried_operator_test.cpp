@@ -104,6 +104,38 @@ TEST_P(EveryModel, KeepsMassElementsAndEnthalpy) {
   }
 }
 
+TEST_P(EveryModel, HasTheRatesByWhichAShortStepChangesTheCells) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas, deckLines());
+  operatorOf(flame).advance(flame.state, 0.0, 1e-4);  // from there on there is soot
+  CarriedOperator particles = operatorOf(flame);
+  State::Balance rates = flame.state.balance;
+  std::ranges::fill(rates.reactions, 0.0);
+  rates.clear();
+  particles.addRates(flame.state, rates);
+  const State before = flame.state;
+  const double dt = 1e-10;
+  particles.advance(flame.state, 1e-4, dt);
+  const std::size_t scalars = before.scalars.size(), n = static_cast<std::size_t>(before.species);
+  std::vector<double> most(scalars + 2, 0.0), differs(most), gained(n);
+  const auto compare = [&](std::size_t i, double rate, double change) {
+    most[i] = std::max(most[i], std::abs(rate));
+    differs[i] = std::max(differs[i], std::abs(change / dt - rate));
+  };
+  for (std::size_t c = 0; c < static_cast<std::size_t>(flame.mesh.owned); ++c) {
+    for (std::size_t s = 0; s < scalars; ++s)
+      compare(s, rates.carried[c * scalars + s],
+              flame.state.carried[c * scalars + s] - before.carried[c * scalars + s]);
+    rates.ofSpecies(c, gained);
+    for (std::size_t k = 0; k < n; ++k)
+      compare(scalars, gained[k],
+              flame.state.density[c] * flame.state.Y[c * n + k] - before.density[c] * before.Y[c * n + k]);
+    compare(scalars + 1, rates.enthalpy[c],
+            flame.state.density[c] * flame.state.enthalpy[c] - before.density[c] * before.enthalpy[c]);
+  }
+  EXPECT_GT(most.back(), 0.0);
+  for (std::size_t i = 0; i < most.size(); ++i) EXPECT_LE(differs[i], 2e-3 * most[i]) << i;  // sections may be empty
+}
+
 TEST_P(EveryModel, LeavesEveryBitOfACellWithoutSoot) {
   const auto gas = [](const Vector3& x) {
     return x[1] < 4e-3 ? test::sootingGas(x) : test::Gas{300.0 + 1e4 * x[0], "C2H4: 0.3, N2: 0.5, O2: 0.2"};
