@@ -174,7 +174,7 @@ TEST_F(ResidualOfChannel, IsGoneWhereAFlowIsSteady) {
   for (std::size_t e = 0; e < early.size(); ++e) {
     report(fmt::format("{}: {:.3g}, in the end {:.3g}", early[e].equation, early[e].value, late[e].value));
     EXPECT_LT(late[e].value, 1e-6) << early[e].equation;
-    EXPECT_NEAR(early[e].value, alone[e].value, 1e-6 * alone[e].value + 1e-12) << early[e].equation;
+    EXPECT_NEAR(early[e].value, alone[e].value, 1e-6 * alone[e].value + 1e-9) << early[e].equation;
   }
   for (std::size_t e = 0; e < 4; ++e) EXPECT_GT(early[e].value, 1e-5) << early[e].equation;
 }
