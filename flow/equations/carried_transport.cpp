@@ -109,8 +109,8 @@ void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
       if (state.scalars[s].isTransported) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
 }
 
-void CarriedTransport::presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
-                                   std::span<double> flux) const {
+void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+                                     std::span<double> flux) const {
   const Mesh& m = context_.mesh;
   const int n = state.carriedCount();
   if (m.isOblique()) {
@@ -157,7 +157,7 @@ void CarriedTransport::presentFlux(const State& state, const Gas& gas, std::span
   convectiveFlux(state, gas);
   std::vector<double> conductance(flux.size());
   std::ranges::fill(flux, 0.0);
-  presentFlux(state, gas.faces, conductance, flux);
+  diffusiveFlux(state, gas.faces, conductance, flux);
   for (std::size_t i = 0; i < flux.size(); ++i) flux[i] += flux_[i];
 }
 
@@ -196,13 +196,13 @@ void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, st
   std::vector<double> conductance(flux_.size());
   std::vector<double> flux(flux_.size(), 0.0), startFlux(flux_.size(), 0.0);
   if (&gas.start != &state) {
-    presentFlux(gas.start, gas.faces, conductance, startFlux);
-    presentFlux(state, gas.faces, conductance, flux);
+    diffusiveFlux(gas.start, gas.faces, conductance, startFlux);
+    diffusiveFlux(state, gas.faces, conductance, flux);
     for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = 0.5 * (startFlux[i] - flux[i]);
     addFaceFluxes(m, flux, n, dt, content);
     addCrossed(flux);
   }
-  presentFlux(state, gas.faces, conductance, flux);
+  diffusiveFlux(state, gas.faces, conductance, flux);
   // At what rate the contents change by everything else and by the guess's diffusion.
   std::vector<double> inertia(static_cast<std::size_t>(m.owned));
   std::vector<double> perMass(static_cast<std::size_t>(m.cells) * n);

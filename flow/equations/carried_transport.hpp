@@ -65,8 +65,8 @@ class CarriedTransport {
   void solveChanges(const State& state, std::span<const double> inertia, std::span<const double> conductance,
                     std::span<double> change);
   // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the faces.
-  void presentFlux(const State& state, const FaceState& faces, std::span<double> conductance,
-                   std::span<double> flux) const;
+  void diffusiveFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+                     std::span<double> flux) const;
 
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;
