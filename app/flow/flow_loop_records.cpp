@@ -140,7 +140,7 @@ std::vector<std::string> FlowLoop::steadyLines() const {
 }
 
 std::vector<ResidualNorm> FlowLoop::residualNow() {
-  if (domain_->ensembles) return {};
+  if (std::ranges::any_of(domain_->operators, &Operator::isStochastic)) return {};
   const Timers::Scope scope(timers_, "monitoring");
   FlowResidual residual(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
   residual.evaluate(domain_->state);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
+#include "flow/models/constant_pressure_cells.hpp"
 #include "flow/models/reaction_operator.hpp"
 #include "flow/stepping/budget.hpp"
 #include "flow/stepping/time_step.hpp"
@@ -243,6 +244,19 @@ TEST_F(Reacting, WhatVanishesInAStepLeavesNoHole) {
   for (const auto& line : budget.lines(state)) EXPECT_LE(line.error, 1e-11) << line.name;
 }
 
+// The first step that a cell asks for is the one it gets.
+TEST_F(Reacting, CellsBeginWithTheirFirstStep) {
+  ConstantPressureCells reactor(gas.mechanism, gas.thermo, {});
+  std::vector<double> one = premixed, other = premixed, none(premixed.size(), 0.0);
+  const double enthalpy = gas.thermo.enthalpyMass(1100.0, premixed);
+  const std::vector<CellReactor::Cell> cells{{{enthalpy, 0.0, 1100.0, 101325.0, 0.0}, one, none},
+                                             {{enthalpy, 0.0, 1100.0, 101325.0, 1e-9}, other, none}};
+  std::vector<CellReactor::Result> results(2);
+  reactor.advance(cells, 1e-6, results);
+  EXPECT_NE(results[0].steps, results[1].steps);
+  EXPECT_NEAR(results[0].temperature, results[1].temperature, 1e-2);
+}
+
 // Another way to advance a cell: a stirred reactor that takes in air, whose gas does not react.
 class StirredCells final : public CellReactor {
  public:
@@ -254,10 +268,15 @@ class StirredCells final : public CellReactor {
     const double stays = std::exp(-dt / residenceTime_);
     for (std::size_t i = 0; i < cells.size(); ++i) {
       for (std::size_t k = 0; k < inflow_.size(); ++k)
-        cells[i].Y[k] = inflow_[k] + stays * (cells[i].Y[k] - inflow_[k]);
+        cells[i].Y[k] = inflow_[k] + stays * (cells[i].Y[k] - inflow_[k]) + dt * cells[i].source[k];
       const double at = cells[i].gas.temperature;
-      results[i] = {
-          at + 1.0, cells[i].gas.firstStep + dt, 2.0, 5.0, 1.0, at < 301.0 ? 1.0 : 0.0, at < 301.0 ? 0.0 : 1.0};
+      results[i] = {at + 1e-3 * dt * cells[i].gas.heating,
+                    cells[i].gas.firstStep + dt,
+                    2.0,
+                    5.0,
+                    1.0,
+                    at < 301.0 ? 1.0 : 0.0,
+                    at < 301.0 ? 0.0 : 1.0};
     }
   }
 
@@ -268,14 +287,16 @@ class StirredCells final : public CellReactor {
 
 TEST_F(Reacting, CellsAreAdvancedByAnyReactor) {
   State state = box.state([&](const auto& x) { return halfHot(x); });
-  const State start = state;
   const double dt = 1e-4, residenceTime = 3e-4;
+  state.keepStart();
+  for (double& enthalpy : state.enthalpy) enthalpy += 1e3;  // in place of transport
+  const State start = state;
   ReactionOperator chemistry(box.context, options(true), std::make_unique<StirredCells>(air, residenceTime));
   chemistry.advance(state, 0.0, dt);
   const std::size_t n = gas.mechanism.numSpecies();
   const double stays = std::exp(-dt / residenceTime);
   for (int c = 0; c < box.mesh.owned; ++c) {
-    EXPECT_EQ(state.temperature[at(c)], start.temperature[at(c)] + 1.0);
+    EXPECT_NEAR(state.temperature[at(c)], start.temperature[at(c)] + 1.0, 1e-9);
     for (std::size_t k = 0; k < n; ++k) {
       const double Y = air[k] + stays * (start.Y[at(c) * n + k] - air[k]);
       EXPECT_NEAR(state.Y[at(c) * n + k], Y, 4.0 * epsilon);
@@ -294,16 +315,17 @@ TEST_F(Reacting, CellsAreAdvancedByAnyReactor) {
   EXPECT_EQ(found.handedOverCells, 24.0);
 
   // Cells that go together with their neighbours are advanced by it too, each from where its part begins.
-  std::vector<double> Y = premixed, source(n, 0.0);
+  std::vector<double> Y = premixed, source(n, 50.0);
   std::vector<CoupledCells::Reacting> together;
   if (box.mesh.owned > 2)
-    together.push_back({box.mesh.naturalCell[2], {1e5, 0.0, 700.0, 101325.0, 2e-6}, 0.0, Y, source});
+    together.push_back({box.mesh.naturalCell[2], {1e5, 1e7, 700.0, 101325.0, 2e-6}, 0.0, Y, source});
   chemistry.react(together, 0.0, dt);
   for (const CoupledCells::Reacting& cell : together) {
-    EXPECT_EQ(cell.gas.temperature, 701.0);
+    EXPECT_DOUBLE_EQ(cell.gas.temperature, 701.0);
     EXPECT_EQ(cell.gas.firstStep, 2e-6 + dt);
     EXPECT_EQ(cell.cost, 2.0);
-    for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(Y[k], air[k] + stays * (premixed[k] - air[k]), 4.0 * epsilon);
+    for (std::size_t k = 0; k < n; ++k)
+      EXPECT_NEAR(Y[k], air[k] + stays * (premixed[k] - air[k]) + dt * 50.0, 4.0 * epsilon);
   }
 }
 
