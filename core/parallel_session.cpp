@@ -62,6 +62,9 @@ Place placeOfProcess() {
 
 ParallelSession::ParallelSession() {
   if (!startedByLauncher()) startAlone();
+  // Nobody here shares a place in a file. Open MPI's default for those that do is a semaphore called by the file's bare
+  // name, which a process that is killed leaves in /dev/shm: whoever opens a file of that name waits for ever.
+  set("OMPI_MCA_sharedfp", "individual");
   // PETSc reads its own options from the environment and from a file, not from our command line.
   checkPetsc(PetscInitializeNoArguments());
   checkPetsc(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr));

@@ -68,11 +68,16 @@ def check_steady(program, folder, ranks) -> None:
     if ranks > 1:
         return
 
+    # What Open MPI leaves of a process that was killed while it wrote a checkpoint of this name: nobody waits for it.
+    semaphore = pathlib.Path("/dev/shm/sem.OMPIO_outputs_000052.h5.part")
+    if semaphore.parent.is_dir():
+        semaphore.write_bytes(bytes(32))
     # One that was broken off in the middle ends with the same bits; one whose first part did not ask ends a little later.
     unasked = PLATES.replace(STEADY, "")
     for name, first in (("whole", PLATES), ("unasked", unasked)):
         text = first.replace("end: 60 ms", "end: 11 ms")
         result, _, last, found = steady_run(program, folder, name, text + "checkpoint: {at_end: true}\n")
+        assert (folder / name / "checkpoint/outputs_000052.h5").exists(), "the semaphore is of another step"
         asks = first == PLATES
         assert ("has come before the flow is steady" in result.err) == asks, result.err
         assert ("not steady (time.steady.tolerance 0.002, maximum norm)" in result.out) == asks, result.out
@@ -81,6 +86,7 @@ def check_steady(program, folder, ranks) -> None:
         result, later, last, found = steady_run(program, folder, name, PLATES, "--restart")
         assert found["steady"] is True and end <= float(last["time [s]"]) < end + time, (end, last)
         assert (later == history) == asks and later.count("nan,nan,nan,nan") == (0 if asks else later.count("\n", 0, later.index(",0.011,"))), name
+    semaphore.unlink(missing_ok=True)
     result, later, last, found = steady_run(program, folder, "whole", unasked.replace("end: 60 ms", "end: 45 ms"), "--restart")
     assert "steady" not in found and not any("steady" in name for name in last), (found, last)
 
