@@ -41,7 +41,8 @@ EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOp
       transport_(context, {particles_->sizes().type, waldmannThermophoresis(), options_.diffusion, options_.secondOrder,
                            options_.seed, particles_->rows()}),
       exchange_(context),
-      work_(context, {"ensemble", "the ensemble", options_.shareWork}),
+      // A cell that was never advanced is expected to cost what its particles do.
+      work_(context, {.name = "ensemble", .subject = "the ensemble", .isShared = options_.shareWork, .firstCost = 0.0}),
       populations_(static_cast<std::size_t>(context.mesh.owned)),
       arrived_(populations_.size()),
       waiting_(populations_.size(), 0.0),

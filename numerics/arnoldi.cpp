@@ -50,7 +50,7 @@ bool Arnoldi::extend() {
       column[j] += part;
     }
   const double left = std::sqrt(product(v, v));
-  if (!std::isfinite(left)) throw NumericsError("the modes of the flame are not finite");
+  if (!std::isfinite(left)) throw NumericsError("the eigenvectors of a matrix are not finite");
   column.back() = left;
   columns_.push_back(std::move(column));
   if (left <= 1e-14 * before) return false;

@@ -1,4 +1,4 @@
-// LU factors of a bordered block-tridiagonal matrix, the Newton matrix of a one-dimensional flame:
+// LU factors of a bordered block-tridiagonal matrix, such as the Newton matrix of a one-dimensional flame:
 //
 //   | D0 U0          b0 |     blocks of `width` unknowns a point,
 //   | L1 D1 U1       b1 |     a border of a few unknowns of the whole flame

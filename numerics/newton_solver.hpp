@@ -32,7 +32,7 @@ struct NewtonOptions {
 
 struct PseudoTransientOptions {
   double firstStep = 1e-5;      // s
-  double largestStep = 1e3;     // s: beyond it the flame is steady and Newton has to converge
+  double largestStep = 1e3;     // s: beyond it the system is steady and Newton has to converge
   double smallestStep = 1e-15;  // s: below it the solution has failed
   double growth = 2, cut = 0.25;
   std::size_t stepsBetweenNewton = 10;  // tries the steady equations after so many steps

@@ -16,9 +16,8 @@ struct MechanismFileNames {
 };
 
 inline constexpr const char* permissiveHelp =
-    "Mark reactions that are the same as duplicates, and leave out efficiencies of species that are not declared; each "
-    "with a "
-    "warning, without it an error.";
+    "Mark reactions that are the same as duplicates, and leave out efficiencies of species that are not declared, with "
+    "a warning each; otherwise both are errors.";
 
 bool isYaml(const std::string& path);
 

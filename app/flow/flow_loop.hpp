@@ -135,7 +135,8 @@ class FlowLoop {
   [[nodiscard]] const Operator* holder() const;
   // How far from steady the run ended, for the closing report.
   [[nodiscard]] std::vector<std::string> steadyLines() const;
-  // Collective. By equation; nothing where an operator is stochastic, whose rates are those of single events.
+  // Collective. By equation; nothing where an operator is stochastic, whose rates are those of single events, nor, with
+  // a warning, where the gas has no properties or rates.
   [[nodiscard]] std::vector<ResidualNorm> residualNow();
   [[nodiscard]] std::string steadyJson(const std::vector<ResidualNorm>& residual) const;  // the same for the record
 

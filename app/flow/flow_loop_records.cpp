@@ -9,6 +9,7 @@
 #include "app/flow/flow_loop.hpp"
 #include "app/run/failed_cell.hpp"
 #include "app/run/recorded_run.hpp"
+#include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
@@ -140,10 +141,15 @@ std::vector<std::string> FlowLoop::steadyLines() const {
 }
 
 std::vector<ResidualNorm> FlowLoop::residualNow() {
-  if (std::ranges::any_of(domain_->operators, &Operator::isStochastic)) return {};
+  if (std::ranges::any_of(operators_, &Operator::isStochastic)) return {};
   const Timers::Scope scope(timers_, "monitoring");
   FlowResidual residual(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
-  residual.evaluate(domain_->state);
+  try {
+    residual.evaluate(domain_->state);
+  } catch (const NumericsError& error) {  // of all ranks alike; the run's results are what they are
+    printWarnings({fmt::format("the last state has no residual: {}", error.what())});
+    return {};
+  }
   return residualNorms(domain_->context, domain_->state, residual, steadiness_.time());
 }
 

@@ -18,7 +18,7 @@ class Trajectories final : public ClosingStage {
   // longest first; its random numbers depend on the seed and its number alone) and writes them under /trajectories; the
   // gas tables that the deck asks for into the folder.
   void run(const FlowContext& context, const State& state, const GasProperties& properties, ResultsWriter& results,
-           const RunFolder* folder = nullptr) const override;
+           const RunFolder* folder) const override;
 
  private:
   const FlowCase& case_;

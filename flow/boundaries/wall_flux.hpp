@@ -2,8 +2,8 @@
 // at its surface. Between the place where an amount c per mass of gas is known, at a distance d, and the wall, the flux
 // w c - rho D grad c is constant, so that
 //
-//   J = w c / (1 - exp(-w/g)) - w c_w / (exp(w/g) - 1) = takenByWall(w, g) c - takenByWall(-w, g) c_w,   g = rho A D /
-//   d,
+//   J = w c / (1 - exp(-w/g)) - w c_w / (exp(w/g) - 1) = takenByWall(w, g) c - takenByWall(-w, g) c_w,
+//   g = rho A D / d,
 //
 // with c_w the amount at the surface, of particles zero, and w (kg/s) the mass of gas that would flow to the wall as
 // they drift: w c where the drift rules, as the

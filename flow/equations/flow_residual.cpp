@@ -92,8 +92,6 @@ void FlowResidual::addCarried(const State& state) {
   std::vector<double> flux(static_cast<std::size_t>(m.faces) * scalars);
   carried_.presentFlux(
       state, {state, state, properties_.viscosity, faces_, velocityOfFaces_, {}, properties_, conducted_}, flux);
-  for (std::size_t i = 0; i < flux.size(); ++i)
-    if (!state.scalars[i % scalars].isTransported) flux[i] = 0.0;
   addFaceFluxes(m, flux, static_cast<int>(scalars), 1.0, rates_.carried);
 }
 

@@ -9,8 +9,6 @@
 namespace lampblack::flow {
 namespace {
 
-constexpr double firstModelCost = 1.0;  // before a cell was ever advanced: that of all others
-
 // About microseconds: rates, and the factors of a dense matrix, of RODAS3. Estimated, not measured: it weighs cells
 // with particles against each other, and against the gas to a factor of two or so.
 double costOfAdvance(std::size_t scalars, double steps) {
@@ -52,7 +50,7 @@ CarriedOperator::CarriedOperator(const FlowContext& context, CarriedModel& model
       first_(first),
       scalars_(model.scalars().size()),
       options_(std::move(options)),
-      work_(context, {"carried", model.material(), options_.shareWork, firstModelCost}),
+      work_(context, {.name = "carried", .subject = model.material(), .isShared = options_.shareWork}),
       before_(static_cast<std::size_t>(context.mesh.owned) * (scalars_ + model.exchanged().size())),
       rate_(before_.size()),
       heat_(static_cast<std::size_t>(context.mesh.owned)),

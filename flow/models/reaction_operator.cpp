@@ -30,8 +30,6 @@ constexpr double stepsUnasked = 8.0, moreChange = 1.25;
 // left of its growth rate after a step.
 constexpr double slowShare = 0.25, forgotten = 0.8;
 
-constexpr double firstCost = 1.0;  // before a cell was ever advanced: that of all others
-
 }  // namespace
 
 ReactionOperator::ReactionOperator(const FlowContext& context, const Options& options)
@@ -43,7 +41,7 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options, 
       options_(std::move(options)),
       reactor_(std::move(reactor)),
       // Some cells change between the methods from step to step: their costs are smoothed.
-      work_(context, {"chemistry", "chemistry", options_.shareWork, firstCost, true}),
+      work_(context, {.name = "chemistry", .subject = "chemistry", .isShared = options_.shareWork, .isSmoothed = true}),
       initialStep_(static_cast<std::size_t>(context.mesh.owned)),
       isLimited_(initialStep_.size()),
       heatRelease_(initialStep_.size()),

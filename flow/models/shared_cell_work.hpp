@@ -59,12 +59,13 @@ class RowWriter {
 class SharedCellWork {
  public:
   struct Options {
-    std::string name;        // of what is kept in checkpoints, "chemistry" for "chemistry_cost"
-    std::string subject;     // of the message of a failure, "chemistry" for "chemistry failed in cell 3"
-    bool isShared = true;    // false: every rank advances its own cells
-    double firstCost = 0.0;  // expected of a cell that was never advanced
-    bool isSmoothed =
-        false;  // whether the mean of what was expected and what it was is expected next; else what it was
+    std::string name;      // of what is kept in checkpoints, "chemistry" for "chemistry_cost"
+    std::string subject;   // of the message of a failure, "chemistry" for "chemistry failed in cell 3"
+    bool isShared = true;  // false: every rank advances its own cells
+    // Expected of a cell that was never advanced: as of all others.
+    double firstCost = 1.0;
+    // Whether the mean of what was expected and what it was is expected next; else what it was.
+    bool isSmoothed = false;
   };
 
   // What messages call a cell by, wherever it is advanced.

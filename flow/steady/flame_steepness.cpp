@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "flow/models/reaction_operator.hpp"
@@ -21,7 +22,8 @@ std::optional<FlameSteepness> flameSteepness(const FlowContext& context, const S
   std::vector<double> temperature = state.temperature;
   context.halo.update(temperature, 1);
   std::vector<double> heat(static_cast<std::size_t>(m.owned)), enthalpies(static_cast<std::size_t>(state.species));
-  std::array<double, 3> most{0.0, -temperature[0], temperature[0]};  // heat release, less the lowest T, the highest
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  std::array<double, 3> most{0.0, none, none};  // heat release, less the lowest T, the highest
   for (int c = 0; c < m.owned; ++c) {
     heat[c] = heatRelease(context, state, static_cast<std::size_t>(c), enthalpies);
     most = {std::max(most[0], heat[c]), std::max(most[1], -temperature[c]), std::max(most[2], temperature[c])};

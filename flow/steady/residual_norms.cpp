@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -142,13 +143,13 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
     sums.made(m.volume[c] * std::abs(rates.made.enthalpy[c]));
     sums.brought(state.temperature[c]);
   });
-  std::vector<double> made(n);
+  std::vector<double> made(static_cast<std::size_t>(m.owned) * n);
+  forEachCell([&](std::size_t c, const Vector3&) { rates.made.ofSpecies(c, std::span(made).subspan(c * n, n)); });
   for (std::size_t k = 0; k < n; ++k) {
     sums.begin(context.mechanism.speciesName(k), 1.0, leastRangeOfFraction, ResidualNorm::Kind::Species);
     forEachCell([&](std::size_t c, const Vector3& place) {
-      rates.made.ofSpecies(c, made);
       sums.left(rates.species[c * n + k] - state.Y[c * n + k] * rates.mass[c], place);
-      sums.made(m.volume[c] * std::max(made[k], 0.0));
+      sums.made(m.volume[c] * std::max(made[c * n + k], 0.0));
       sums.brought(state.Y[c * n + k]);
     });
   }

@@ -16,7 +16,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double piecesOfTime = 4.0;
 // Least scales of fields that are the same all over the domain.
-constexpr double leastOfValue = 1e-3;     // of the largest temperature
+constexpr double leastOfValue = 1e-3;     // of the largest value, of a temperature
 constexpr double leastOfVelocity = 1e-3;  // of the length of the domain over the time
 constexpr double leastMassFraction = 1e-6;
 constexpr double leastOfOthers = 1e-3;  // of the largest range of one owner's scalars of one unit

@@ -56,7 +56,7 @@ void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
   flame.flowCase.trajectories->starts = starts;
   flame.flowCase.trajectories->duration = 2e-3;
   ResultsWriter results(comm, path, {}, meshOutput(flame.mesh));
-  Trajectories(flame.flowCase).run(flame.context, flame.state, flame.properties, results);
+  Trajectories(flame.flowCase).run(flame.context, flame.state, flame.properties, results, nullptr);
   results.close();
 }
 
@@ -207,7 +207,7 @@ Datasets pathsBesideASolid(const fs::path& folder, double timeStep, double durat
   GasProperties properties;
   properties.update(flow.context, state);
   ResultsWriter results(MPI_COMM_WORLD, folder / "results.h5", {}, meshOutput(flow.mesh));
-  Trajectories(flow.flowCase).run(flow.context, state, properties, results);
+  Trajectories(flow.flowCase).run(flow.context, state, properties, results, nullptr);
   results.close();
   return test::worldRank() == 0 ? readTrajectories(folder / "results.h5") : Datasets{};
 }
