@@ -150,6 +150,72 @@ TEST_F(ResidualOfChannel, IsWhatAShortStepChanges) {
   }
 }
 
+// Faces feel pressures that alternate from cell to cell, of which the cells feel nothing (Rhie and Chow 1983).
+TEST_F(ResidualOfChannel, DrivesGasFromHighToLowPressureAtEachFace) {
+  Box b = box(air, 300.0, true);
+  State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 300.0, air}; }, {});
+  Steps steps(b, state);
+  steps.transport.initialise(state, 1e-5);
+  for (int c = 0; c < b.mesh.cells; ++c)
+    state.pressure[at(c)] = std::lround(b.mesh.centre[at(c)][1] / 0.00075 - 0.5) % 2 == 0 ? 1.0 : -1.0;
+  FlowResidual residual(b.context, state, VelocityScheme::Limited, steps.all());
+  const FlowResidual::Rates& rates = residual.evaluate(state);
+  int found = 0;
+  for (int face = 0; face < b.mesh.interiorFaces; ++face) {
+    const double step = state.pressure[at(b.mesh.low[at(face)])] - state.pressure[at(b.mesh.high[at(face)])];
+    if (step == 0.0) continue;
+    EXPECT_GT(rates.massFlux[at(face)] / step, 1e-3 * std::abs(state.massFlux[at(face)])) << face;
+    ++found;
+  }
+  EXPECT_GT(found, 0);
+}
+
+// What mass is left over counts in its own equation alone.
+TEST_F(ResidualOfChannel, CountsMassOnce) {
+  Box b = box(air, 300.0, true);
+  State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 300.0, air}; }, {{"dust", "1/m3", ""}});
+  std::ranges::fill(state.carried, 2.0);
+  Steps steps(b, state);
+  steps.transport.initialise(state, 1e-5);
+  for (int face = 0; face < b.mesh.interiorFaces; ++face)
+    state.massFlux[at(face)] *= 1.0 + 0.1 * std::sin(700.0 * b.mesh.faceCentre[at(face)][1]);
+  FlowResidual residual(b.context, state, VelocityScheme::Limited, steps.all());
+  residual.evaluate(state);
+  for (const ResidualNorm& norm : residualNorms(b.context, state, residual, 0.012 / 0.5)) {
+    if (norm.equation == "mass") {
+      EXPECT_GT(norm.value, 0.1);
+    } else if (norm.equation == "enthalpy" || norm.kind == ResidualNorm::Kind::Species) {
+      EXPECT_LT(norm.value, 1e-6) << norm.equation;
+    }
+  }
+}
+
+TEST_F(ResidualOfChannel, IsTakenOfWhatIsBroughtAndWhatIsMade) {
+  Box b = box(fuel, 900.0);
+  State state = burning(b);
+  Steps steps(b, state);
+  steps.transport.initialise(state, 1e-6);
+  FlowResidual residual(b.context, state, VelocityScheme::Limited, steps.all());
+  const FlowResidual::Rates& rates = residual.evaluate(state);
+  const std::size_t n = gas.mechanism.numSpecies(), species = gas.mechanism.speciesIndex("HO2");
+  const auto whole = [&](const auto& of) {
+    double sum = 0.0;
+    for (int c = 0; c < b.mesh.owned; ++c) sum += b.mesh.volume[at(c)] * of(at(c));
+    return sumOverRanks(sum);
+  };
+  const double made = whole([&](std::size_t c) { return std::max(rates.made.reactions[c * n + species], 0.0); });
+  // Little differs in the domain: the least range counts. As much is brought as is made.
+  const double time = 1e-6 * whole([&](std::size_t c) { return state.density[c]; }) / made;
+  const double left = whole([&](std::size_t c) {
+    return std::abs(rates.species[c * n + species] - state.Y[c * n + species] * rates.mass[c]) / b.mesh.volume[c];
+  });
+  ASSERT_GT(made, 0.0);
+  const auto norms = residualNorms(b.context, state, residual, time);
+  const auto found = std::ranges::find(norms, "HO2", &ResidualNorm::equation);
+  ASSERT_NE(found, norms.end());
+  EXPECT_NEAR(found->value * 2.0 * made / left, 1.0, 1e-10);
+}
+
 // A flow that has been marched until nothing changes has none left, on any number of ranks; one that has been marched
 // for a while has.
 TEST_F(ResidualOfChannel, IsGoneWhereAFlowIsSteady) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "flow/equations/flow_residual.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
@@ -87,6 +88,30 @@ TEST_F(SwirlInAVessel, TurnsByLittleInAStep) {
   State state = turningAs(box, [](const auto& x) { return turning * x[0]; });
   TransportOperator transport(box.context, state, {0.25, 1});
   EXPECT_NEAR(transport.largestStep(state), 0.25 / turning, 1e-12);
+}
+
+// The residual's moment on each cell is what a short step changes of its angular momentum, by friction at walls that
+// turn at another speed and between rings of gas. Velocities stand at the middles of steps: the first changes them by
+// half a step.
+TEST_F(SwirlInAVessel, HasTheMomentByWhichAShortStepTurnsIt) {
+  constexpr double shortStep = 1e-7;
+  Box box = boxOf(12, can(false, -turning));
+  makeTurn(box);
+  State state = turningAs(box, [](const auto& x) { return turning * x[0] * (1.0 + 30.0 * x[0] + 20.0 * x[1]); });
+  TransportOperator transport(box.context, state);
+  transport.initialise(state, shortStep);
+  FlowResidual residual(box.context, state, VelocityScheme::Limited, {});
+  const std::vector<double> moment = residual.evaluate(state).angularMomentum, before = state.swirl;
+  transport.advance(state, 0.0, shortStep);
+  double most = 0.0, differs = 0.0;
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    const double inertia = state.density[at(c)] * box.mesh.volume[at(c)] * box.mesh.centre[at(c)][0];
+    most = std::max(most, std::abs(moment[at(c)]));
+    const double change = (state.swirl[at(c)] - before[at(c)]) / (0.5 * shortStep);
+    differs = std::max(differs, std::abs(inertia * change - moment[at(c)]));
+  }
+  EXPECT_GT(maxOverRanks(most), 0.0);
+  EXPECT_LT(maxOverRanks(differs), 1e-3 * maxOverRanks(most));
 }
 
 // A pipe whose gas is sucked away at one end and comes in at the other, through an outlet, stops turning.
