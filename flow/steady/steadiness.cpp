@@ -436,7 +436,7 @@ void Steadiness::saveOrLoad(StateArchive& archive) {
   for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s].scale = period.at(scalesBegin + s);
   periodicity_.reset();
   if (scalesBegin == 0) return;
-  periodicity_ = Periodicity{period[0], {}};
+  periodicity_.emplace().period = period[0];
   for (std::size_t i = 1; i < scalesBegin; i += 2) periodicity_->ranges.push_back({period.at(i), period.at(i + 1)});
 }
 
