@@ -17,6 +17,7 @@ const std::map<std::string, MonteCarloMethod> monteCarlo{
     {"samwfmc", MonteCarloMethod::samwfmc},
     {"sammc", MonteCarloMethod::sammc},
     {"swa", MonteCarloMethod::swa},
+    {"pairs", MonteCarloMethod::pairs},
     {"hybrid", MonteCarloMethod::hybrid}};
 
 // Of a numerical particle in the leanest store: volume, weight, and its share of the sums over them.
@@ -60,7 +61,7 @@ MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, c
   if (deck.optionalString(section + ".nucleation") == "random") options.nucleation = NucleationSampling::random;
   options.nucleusWeight = deck.optionalQuantity(section + ".nucleus_weight").value_or(0.0);
   const bool empty = populationCase.initial.distribution == InitialPopulation::Distribution::none;
-  if (empty && !deck.has(section + ".expected_number"))
+  if (empty && options.method != MonteCarloMethod::pairs && !deck.has(section + ".expected_number"))
     throw deck.error(section, fmt::format("the method {} needs the key 'expected_number' where 'initial' has no "
                                           "particles: the number density at which its sample is full",
                                           type));
@@ -69,6 +70,8 @@ MonteCarloOptions readMonteCarlo(const Deck& deck, const std::string& section, c
                      "the number density at the start is that of 'initial'; leave this key out");
   options.expectedNumber = deck.optionalQuantity(section + ".expected_number").value_or(0.0);
   if (deck.optionalString(section + ".initial_weights") == "equal") options.initialWeights = InitialWeights::equal;
+  options.pairProbability = deck.optionalNumber(section + ".pair_probability").value_or(options.pairProbability);
+  options.splitChange = deck.optionalNumber(section + ".split_change").value_or(options.splitChange);
   options.threshold = count(deck, section + ".threshold", options.threshold);
   requireMemory(deck, section + ".threshold", fmt::format("a threshold of {} sizes", options.threshold),
                 bytesOfParticle * static_cast<double>(options.threshold));

@@ -6,10 +6,15 @@ namespace lampblack::app {
 namespace {
 
 // Who has which keys.
-const std::vector<std::string> monteCarlo{
+const std::vector<std::string> jumping{
     "dsmc", "constant_volume", "constant_number_mass", "constant_number_number", "mmc", "wfmc", "samwfmc", "sammc",
     "swa",  "hybrid"};
-const std::vector<std::string> weighted{"mmc", "wfmc", "samwfmc", "sammc", "swa"};
+const std::vector<std::string> monteCarlo = [] {
+  std::vector<std::string> all = jumping;
+  all.emplace_back("pairs");
+  return all;
+}();
+const std::vector<std::string> weighted{"mmc", "wfmc", "samwfmc", "sammc", "swa", "pairs"};
 const std::vector<std::string> fractions{"wfmc", "samwfmc", "sammc"};
 
 // The rate rate (v / reference_volume)^exponent of a process of single particles.
@@ -212,9 +217,10 @@ void addMethods(DeckSchema& schema) {
   schema.section("methods", Presence::required, "Named methods: all are run and compared.")
       .add(choiceKey(at + ".type",
                      {"dsmc", "constant_volume", "constant_number_mass", "constant_number_number", "mmc", "wfmc",
-                      "samwfmc", "sammc", "swa", "hybrid", "sectional", "qmom", "momic"},
+                      "samwfmc", "sammc", "swa", "pairs", "hybrid", "sectional", "qmom", "momic"},
                      "Equal weights: dsmc, constant_volume (stepwise), constant_number_mass, constant_number_number; "
-                     "different weights: mmc, wfmc, samwfmc, sammc, swa; hybrid: small particles as numbers; sections "
+                     "different weights: mmc, wfmc, samwfmc, sammc, swa; pairs: different weights, pairs drawn in time "
+                     "steps; hybrid: small particles as numbers; sections "
                      "and moments: sectional, qmom, momic."))
       .add(choiceKey(at + ".unbiased_moments", {"M0", "M1", "M2", "M3"},
                      "Moments in which the method has to show no bias; [] where it is known to have one.")
@@ -235,7 +241,7 @@ void addMethods(DeckSchema& schema) {
                      "How events are drawn: majorant: from upper bounds of the rates, with fictitious jumps, fast; "
                      "exact: from the sums of all rates, at a cost that goes with the number of particles.")
                .optional()
-               .onlyWith(at + ".type", monteCarlo))
+               .onlyWith(at + ".type", jumping))
       .add(choiceKey(at + ".fraction", {"one", "hyperbolic", "exponential", "stepwise", "constant"},
                      "Fraction function of coagulation alpha: the part of the smaller weight that coagulates in an "
                      "event (Wang 2025, eqs. 4-11 to 4-14).")
@@ -262,24 +268,40 @@ void addMethods(DeckSchema& schema) {
       .add(choiceKey(at + ".nucleation", {"even", "random"},
                      "Nuclei evenly spaced in the integral of their rate (hardly any noise) or at random.")
                .optional()
-               .onlyWith(at + ".type", monteCarlo))
+               .onlyWith(at + ".type", jumping))
       .add(choiceKey(at + ".initial_weights", {"moments", "equal"},
                      "What the particles of the initial distribution stand for: moments (if not given): the large ones "
                      "for fewer real ones, so that none holds more than 4/particles of any of M0 to M3; equal: all for "
                      "as many.")
                .optional()
                .onlyWith(at + ".type", weighted))
-      .add(quantityKey(at + ".nucleus_weight", units::perVolume,
-                       "Number density of real particles that a new numerical particle (nucleus) stands for: smaller "
-                       "is more accurate and slower.")
-               .optional()
-               .above(0)
-               .onlyWith(at + ".type", weighted))
+      .add(
+          quantityKey(at + ".nucleus_weight", units::perVolume,
+                      "Number density of real particles that a new numerical particle (nucleus) stands for: smaller "
+                      "is more accurate and slower. pairs: most that a nucleus stands for, three times the mean if not "
+                      "given.")
+              .optional()
+              .above(0)
+              .onlyWith(at + ".type", weighted))
       .add(quantityKey(at + ".expected_number", units::perVolume,
                        "Monte Carlo that starts without particles: number density at which the sample is full.")
                .optional()
                .above(0)
-               .onlyWith(at + ".type", monteCarlo))
+               .onlyWith(at + ".type", jumping))
+      .add(numberKey(at + ".pair_probability",
+                     "Probability that a candidate pair is to happen with at most, 0.2 if not given: higher draws "
+                     "fewer pairs, and pairs that would be above 1 collide too seldom (counted as limited).")
+               .optional()
+               .above(0)
+               .atMost(1)
+               .onlyWith(at + ".type", {"pairs"}))
+      .add(numberKey(at + ".split_change",
+                     "Part by which coagulation or another process may change the population in a step where there "
+                     "are several, 0.1 if not given: the error of splitting goes with its square.")
+               .optional()
+               .above(0)
+               .atMost(1)
+               .onlyWith(at + ".type", {"pairs"}))
       .add(integerKey(at + ".threshold",
                       "Largest size, in nuclei, of particles that are kept as a number of each size; larger ones are "
                       "kept one by one.")

@@ -8,13 +8,17 @@
 
 namespace lampblack::particles {
 
-// One maker for each family of methods, defined in equal_weight_solver.hpp, weighted_solver.hpp and hybrid_solver.hpp.
+// One maker for each family of methods, defined in equal_weight_solver.hpp, weighted_solver.hpp, pair_solver.hpp and
+// hybrid_solver.hpp.
 template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeEqualWeight(const Type&, const PopulationModel&, const InitialPopulation&,
                                                   const MonteCarloOptions&);
 template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeWeighted(const Type&, const PopulationModel&, const InitialPopulation&,
                                                const MonteCarloOptions&);
+template <ParticleType Type>
+std::unique_ptr<PopulationSolver> makePairs(const Type&, const PopulationModel&, const InitialPopulation&,
+                                            const MonteCarloOptions&);
 template <ParticleType Type>
 std::unique_ptr<PopulationSolver> makeHybrid(const Type&, const PopulationModel&, const InitialPopulation&,
                                              const MonteCarloOptions&);

@@ -22,6 +22,7 @@ enum class MonteCarloMethod {
   samwfmc,  // sorting, what is left over is merged into a neighbour (Wang 2025, chapter 4)
   sammc,    // sorting, the two nearest neighbours are merged (Wang 2025, chapter 5)
   swa,      // stochastic weighted algorithm (Patterson, Wagner, Kraft 2011)
+  pairs,    // pairs drawn in time steps (pair_sampling.hpp)
   // Small particles as numbers, large ones as particles (Boje, Akroyd, Kraft 2019).
   hybrid
 };
@@ -57,6 +58,9 @@ struct MonteCarloOptions {
   InitialWeights initialWeights = InitialWeights::moments;  // of the weighted methods
   // Number density at which an ensemble that starts empty is full; needed there.
   double expectedNumber = 0;  // 1/m3
+  // pairs: what a candidate pair is to happen with at most, and by which part other processes and coagulation may
+  // change the population in a step.
+  double pairProbability = 0.2, splitChange = 0.1;
   std::size_t threshold = 0;  // largest size, in nuclei, that the hybrid method keeps as a number
 };
 

@@ -5,6 +5,7 @@
 #include "core/modules.hpp"
 #include "particles/population/monte_carlo/equal_weight_solver.hpp"
 #include "particles/population/monte_carlo/hybrid_solver.hpp"
+#include "particles/population/monte_carlo/pair_solver.hpp"
 #include "particles/population/monte_carlo/weighted_solver.hpp"
 
 namespace lampblack::particles {
@@ -26,6 +27,8 @@ std::unique_ptr<PopulationSolver> populationOf(const Type& type, const Populatio
     case MonteCarloMethod::sammc:
     case MonteCarloMethod::swa:
       return makeWeighted(type, model, initial, options);
+    case MonteCarloMethod::pairs:
+      return makePairs(type, model, initial, options);
     case MonteCarloMethod::hybrid:
       return makeHybrid(type, model, initial, options);
   }

@@ -1,0 +1,107 @@
+// Numerical particles of different weights in flat arrays, as the method that draws pairs keeps them: what a candidate
+// pair is judged by lies together in one row of 24 bytes, what only an event looks at in another array.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "particles/population/model/pair_kernel.hpp"
+#include "particles/population/model/particle_type.hpp"
+
+namespace lampblack::particles {
+
+template <ParticleType Type>
+class PairPopulation {
+ public:
+  using Particle = typename Type::Particle;
+  struct Row {
+    double weight;  // 1/m3
+    PairKernel::Terms terms;
+    float volume;  // m3
+  };
+  static_assert(sizeof(Row) == 24);
+  struct Entry {
+    const Particle& particle;
+    double weight;  // 1/m3
+  };
+
+  PairPopulation(const Type& type, const std::optional<CollisionKernelOptions>& kernel) : type_(type) {
+    if (kernel) kernel_.emplace(*kernel);
+  }
+
+  [[nodiscard]] const Type& type() const { return type_; }
+  [[nodiscard]] const PairKernel& kernel() const { return *kernel_; }
+  [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] std::size_t bytes() const {
+    return rows_.capacity() * sizeof(Row) + particles_.capacity() * sizeof(Particle);
+  }
+  [[nodiscard]] const Row& row(std::size_t k) const { return rows_[k]; }
+  [[nodiscard]] const Row* rows() const { return rows_.data(); }
+  [[nodiscard]] double weight(std::size_t k) const { return rows_[k].weight; }
+  [[nodiscard]] const Particle& particle(std::size_t k) const { return particles_[k]; }
+  [[nodiscard]] double volume(std::size_t k) const { return type_.volume(particles_[k]); }
+  [[nodiscard]] double rateOf(std::size_t i, std::size_t j) const {  // m3/s, whatever the kernel
+    const CollisionKernel& kernel = kernel_->kernel();
+    return kernel.value(kernelProperties(kernel, type_, particles_[i]), kernelProperties(kernel, type_, particles_[j]));
+  }
+
+  void reserve(std::size_t count) {
+    rows_.reserve(count);
+    particles_.reserve(count);
+  }
+  void add(const Particle& particle, double weight) {
+    rows_.push_back(rowOf(particle, weight));
+    particles_.push_back(particle);
+  }
+  void set(std::size_t k, const Particle& particle, double weight) {
+    rows_[k] = rowOf(particle, weight);
+    particles_[k] = particle;
+  }
+  void setWeight(std::size_t k, double weight) { rows_[k].weight = weight; }
+  void scaleWeights(double factor) {
+    for (Row& row : rows_) row.weight *= factor;
+  }
+  // Takes out all for which gone(k).
+  template <class Gone>
+  void remove(Gone&& gone) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+      if (gone(k)) continue;
+      if (kept != k) {
+        rows_[kept] = rows_[k];
+        particles_[kept] = std::move(particles_[k]);
+      }
+      ++kept;
+    }
+    rows_.resize(kept);
+    particles_.erase(particles_.begin() + static_cast<std::ptrdiff_t>(kept), particles_.end());
+  }
+
+  [[nodiscard]] double number() const {  // 1/m3
+    double sum = 0;
+    for (const Row& row : rows_) sum += row.weight;
+    return sum;
+  }
+  template <class F>
+  void forEach(F&& f) const {
+    for (std::size_t k = 0; k < rows_.size(); ++k) f(Entry{particles_[k], rows_[k].weight});
+  }
+
+ private:
+  [[nodiscard]] Row rowOf(const Particle& particle, double weight) const {
+    Row row{weight, {}, static_cast<float>(type_.volume(particle))};
+    if (kernel_) row.terms = kernel_->terms(kernelProperties(kernel_->kernel(), type_, particle));
+    return row;
+  }
+
+  Type type_;
+  std::optional<PairKernel> kernel_;
+  std::vector<Row> rows_;
+  std::vector<Particle> particles_;
+};
+
+}  // namespace lampblack::particles
