@@ -3,8 +3,8 @@
 //
 //   population_pairs_bench [start of a case's name [numbers of particles, with commas [repeats of 500 particles]]]
 //
-// Times are of one core, CPU seconds. The largest bin holds what is above the volume beyond which the reference, 300
-// sections, has one thousandth of the number.
+// Times are of one core, CPU seconds, with what a repeat starts from. The largest bin holds what is above the volume
+// beyond which the reference, 300 sections, has one thousandth of the number.
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
-#include <functional>
+#include <memory>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -32,8 +32,6 @@ constexpr double nanometre = 5.235987755982989e-28;  // m3, of a sphere of 1 nm
 double cpuSeconds() {
   return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
-
-using Maker = std::function<std::unique_ptr<PopulationSolver>(const MonteCarloOptions&)>;
 
 struct Case {
   std::string name;
@@ -139,18 +137,20 @@ void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsO
   for (const std::size_t n : numbers) {
     for (const auto& [method, name] : {std::pair{pairs, "pairs"}, {sammc, "sammc"}, {swa, "swa"}, {dsmc, "dsmc"}}) {
       const auto repeats =
-          std::max<std::uint64_t>(8, static_cast<std::uint64_t>(repeatsOf500 * 500 / static_cast<double>(n)));
+          std::max<std::uint64_t>(24, static_cast<std::uint64_t>(repeatsOf500 * 500 / static_cast<double>(n)));
       std::array<double, quantities> sum{}, squares{};
-      const double from = cpuSeconds();
+      double seconds = 0;
       for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
         MonteCarloOptions options;
         options.method = method;
         options.particles = n;
         options.repeat = repeat;
         options.expectedNumber = c.initial.number > 0 ? 0 : c.expectedNumber;
+        const double from = cpuSeconds();
         const auto solver = c.hasAggregates ? makeMonteCarlo(SurfaceVolume(1800), c.model, c.initial, options)
                                             : makeMonteCarlo(Sphere(1800), c.model, c.initial, options);
         solver->advance(c.end);
+        seconds += cpuSeconds() - from;
         const auto result = outcome(*solver, edges, large);
         for (std::size_t q = 0; q < quantities; ++q) {
           sum[q] += result[q];
@@ -158,7 +158,7 @@ void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsO
         }
       }
       const auto count = static_cast<double>(repeats);
-      const double milliseconds = 1e3 * (cpuSeconds() - from) / count;
+      const double milliseconds = 1e3 * seconds / count;
       fmt::print("  {:>7} {:>7} {:>8} {:>10.4g}", n, name, repeats, milliseconds);
       for (std::size_t q = 0; q < quantities; ++q) {
         const double mean = sum[q] / count;
