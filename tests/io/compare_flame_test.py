@@ -125,6 +125,25 @@ def main():
         run = running.script(SCRIPT, flow, results)
         assert run.code == 0 and "X_OH" in run.out, run.err
 
+        # A diffusion flame with two peaks of heat release that stands 0.3 mm beside the other: moved, it is alike.
+        def two_peaks(z, place):
+            bump = lambda at, width: np.exp(-(((z - place - at) / width) ** 2))
+            return {**profiles(z, 0.01), "T": 300 + 1800 * bump(0, 3e-3), "H2O": 0.18 * bump(0, 3e-3), "u": 1 + 0 * z, "N2": 0.7 + 0 * z,
+                    "OH": 0.01 * bump(0, 4e-4) + 0.004 * bump(1e-3, 4e-4) + 0.0005 * bump(-2e-3, 4e-4)}
+
+        cells = 0.5 * (fine[1:] + fine[:-1])
+        write_flow(flow / "results.h5", cells, two_peaks(cells, 0.0103))
+        write_profile(profile, coarse, two_peaks(coarse, 0.01))
+        assert running.script(SCRIPT, flow, profile).code == 1
+        run = running.script(SCRIPT, flow, profile, "--moved", "--json")
+        found = json.loads(run.out)
+        assert run.code == 0 and abs(found["shift_m"] - 0.3e-3) < 2e-6, run.out
+        for name, place in (("flame", 0.0103), ("reference", 0.01)):
+            peaks = found["heat_release_peaks"][name]
+            assert len(peaks) == 2, run.out
+            assert np.allclose(peaks, [[1e6, place], [0.4e6, place + 1e-3]], rtol=6e-3, atol=2e-5), run.out
+        assert "1 MW/m3 at 10.3" in running.script(SCRIPT, flow, profile, "--moved").out
+
         # No results, no flame, no reference.
         code, _, err = compare(folder / "nothing")
         assert code == 2 and "nothing" in err, err
