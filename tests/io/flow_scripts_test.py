@@ -1,4 +1,5 @@
-"""What scripts/mesh_to_gmsh writes of a run's box, and what scripts/compare_flows says of two runs, on results written here."""
+"""What scripts/mesh_to_gmsh writes of a run's box, and what scripts/compare_flows says of two runs and scripts/compare_santoro of
+one, on results written here."""
 
 import json
 import pathlib
@@ -96,6 +97,37 @@ def check_comparison(folder):
     assert code == 2 and told == ""
 
 
+def check_santoro(folder):
+    """A flame that is a formula: soot that grows over the radius of 8 mm and lies between 20 and 60 mm of height."""
+    r, z = np.linspace(0, 8e-3, 9), np.linspace(0, 0.12, 61)
+    hot = write_run(folder / "hot", r, z, lambda r, z: 1500 - 1e5 * np.abs(z - 0.051) + 0 * r)
+    row = called("compare_santoro", hot)[1].splitlines()
+    assert len(row) == 5 and "on the axis 1500 K at 51.0 mm" in row[0], row
+    with h5py.File(hot / "results.h5", "a") as file:
+        r, z = file["mesh/cellCentre"][()][:, :2].T
+        file["steps/000003/soot_volume_fraction"] = 1e-3 * r * ((z > 0.02) & (z < 0.06))
+    code, told, err = called("compare_santoro", hot, "--out", folder / "out")
+    assert code == 0 and (folder / "out/santoro.png").is_file(), err
+    lines = told.splitlines()
+    assert "largest f_v 7.5 ppm" in lines[1] and "from 21.0 to 59.0 mm" in lines[1], lines[1]
+    rows = {}
+    for line in lines[2:-1]:
+        name, numbers = line[2:28].strip(), line[28:].split()
+        rows[name] = dict(zip(heights, map(float, numbers))) if name != "height, mm" else rows.get(name)
+        heights = numbers if name == "height, mm" else heights
+    assert abs(rows["T on the axis, K"]["40.35"] - (1500 - 1e2 * (51 - 40.35))) < 1, rows
+    assert rows["f_v where largest, ppm"]["30"] == 7.5 and rows["f_v where largest, ppm"]["80"] == 0, rows
+    assert rows["f_v on the axis, ppm"]["30.33"] == 0.5, rows
+    # The integral of r over the cross-section, cell by cell: 2 pi sum of centre times ring.
+    inner = np.arange(8) * 1e-3
+    exact = 1e-3 * np.sum(np.pi * ((inner + 1e-3) ** 2 - inner**2) * (inner + 0.5e-3))
+    assert abs(rows["integral of f_v, 1e-10 m2"]["39.73"] / (1e10 * exact) - 1) < 1e-3, (rows, exact)
+    code, _, err = called("compare_santoro", write_run(folder / "bowed", np.arange(3.0), np.arange(3.0), lambda r, z: r,
+                                                       {"mesh": {"file": "bowed.msh"}}))
+    assert code == 2 and "a box of cells" in err, err
+
+
 with tempfile.TemporaryDirectory() as scratch:
+    check_santoro(pathlib.Path(scratch))
     check_mesh(pathlib.Path(scratch))
     check_comparison(pathlib.Path(scratch))

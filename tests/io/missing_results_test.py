@@ -20,6 +20,7 @@ COMMANDS = [
     ("compare_sizes", ("--measured", MEASURED, "--where", "equivalence_ratio=2"), "expected the folder of a run or its results.h5"),
     ("compare_sections", (), "expected the folder of a run or its results.h5"),
     ("compare_flame", ("none.csv",), "expected the folder of a run or its results.h5"),
+    ("compare_santoro", (), "expected the folder of a run"),
     ("compare_premixed_soot", (), "expected that of a study or of a run"),
     ("compare_centreline", ("none.csv",), "expected the folder of a run"),
     ("check_soot_trends", (), "expected the folder of a study"),
