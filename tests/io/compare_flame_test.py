@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import re
 import sys
 import tempfile
 
@@ -142,7 +143,8 @@ def main():
             peaks = found["heat_release_peaks"][name]
             assert len(peaks) == 2, run.out
             assert np.allclose(peaks, [[1e6, place], [0.4e6, place + 1e-3]], rtol=6e-3, atol=2e-5), run.out
-        assert "1 MW/m3 at 10.3" in running.script(SCRIPT, flow, profile, "--moved").out
+        told = running.script(SCRIPT, flow, profile, "--moved").out
+        assert re.search(r"heat release peaks, flame: (1|1\.00\d) MW/m3 at 10\.3\d\d mm, 0\.4", told), told
 
         # No results, no flame, no reference.
         code, _, err = compare(folder / "nothing")
