@@ -22,37 +22,32 @@ std::string wordOf(const std::string& element) {
 
 }  // namespace
 
-CellParticles::CellParticles(std::string material, std::vector<std::string> elements, const Mechanism& mechanism,
-                             std::vector<std::size_t> species, const RowSizes& sizes)
-    : material_(std::move(material)),
-      elements_(std::move(elements)),
-      exchangedElements_(elements_),
-      species_(std::move(species)),
-      sizes_(sizes) {
+CellParticles::CellParticles(const Mechanism& mechanism, std::shared_ptr<StochasticPopulation> population)
+    : population_(std::move(population)), blank_(population_->pack()), exchangedElements_(elements()) {
   for (std::size_t e = 0; e < mechanism.numElements(); ++e)
-    if (std::ranges::any_of(species_, [&](std::size_t k) { return mechanism.atoms(k, e) != 0.0; }) &&
-        std::ranges::find(elements_, mechanism.elementName(e)) == elements_.end())
+    if (std::ranges::any_of(species(), [&](std::size_t k) { return mechanism.atoms(k, e) != 0.0; }) &&
+        std::ranges::find(elements(), mechanism.elementName(e)) == elements().end())
       exchangedElements_.push_back(mechanism.elementName(e));
-  const auto enthalpies = elementEnthalpies(elements_);
+  const auto enthalpies = elementEnthalpies(elements());
   if (!enthalpies)
     throw InputError(
         fmt::format("the heat of particles of {} is not known, which a flow needs: the program has that of "
                     "soot (C, H) and of silica (Si, O, H)",
-                    material_));
+                    material()));
   enthalpies_ = *enthalpies;
   for (const std::string& name : exchangedElements_) {
     const std::size_t e = mechanism.elementIndex(name);
-    for (const std::size_t k : species_) massOfAtoms_.push_back(mechanism.atoms(k, e) * mechanism.atomicWeight(e));
+    for (const std::size_t k : species()) massOfAtoms_.push_back(mechanism.atoms(k, e) * mechanism.atomicWeight(e));
   }
 }
 
 std::vector<CarriedScalar> CellParticles::scalars() const {
   std::vector<CarriedScalar> all;
   const auto add = [&](const std::string& name, const char* unit, std::string description) {
-    all.push_back({material_ + "_" + name, unit, std::move(description), 0.0, false});
+    all.push_back({material() + "_" + name, unit, std::move(description), 0.0, false});
   };
   add("number", "1/m^3", "particles, per volume");
-  for (const std::string& element : elements_)
+  for (const std::string& element : elements())
     add(wordOf(element), "kg/m^3", wordOf(element) + " in particles, per volume");
   add("primaries", "1/m^3", "primary particles, per volume");
   add("surface", "m^2/m^3", "surface of particles, per volume");
@@ -65,7 +60,7 @@ std::vector<CarriedScalar> CellParticles::scalars() const {
 std::vector<std::vector<double>> CellParticles::unitElements(const Mechanism& mechanism) const {
   const AmountPlaces at = amounts();
   std::vector<std::vector<double>> all(at.count(), std::vector<double>(mechanism.numElements(), 0.0));
-  for (std::size_t e = 0; e < elements_.size(); ++e) all[at.element(e)][mechanism.elementIndex(elements_[e])] = 1.0;
+  for (std::size_t e = 0; e < elements().size(); ++e) all[at.element(e)][mechanism.elementIndex(elements()[e])] = 1.0;
   for (std::size_t e = 0; e < exchangedElements_.size(); ++e)
     all[at.owedElement(e)][mechanism.elementIndex(exchangedElements_[e])] = 1.0;
   return all;
@@ -79,12 +74,24 @@ double CellParticles::enthalpy(double temperature, std::span<const double> eleme
 
 double CellParticles::volumeOf(std::span<const double> amounts) const {
   double mass = 0.0;
-  for (std::size_t e = 0; e < elements_.size(); ++e) mass += amounts[this->amounts().element(e)];
-  return mass / sizes_.type.density();
+  for (std::size_t e = 0; e < elements().size(); ++e) mass += amounts[this->amounts().element(e)];
+  return mass / sizes().type.density();
 }
 
 void CellParticles::addAmounts(std::span<const double> population, std::span<double> amounts) const {
   rows().forEach(rows().of(population), [&](const double* row) { addAmounts(row, row[packedNumberAt], amounts); });
+}
+
+CellParticles::Change CellParticles::advance(std::span<const double> population, std::span<const double> arrived,
+                                             const ParticleGas& gas, double dt) {
+  population_->unpack(population);
+  if (!arrived.empty()) population_->join(arrived, 1.0);
+  population_->advance(gas, dt);
+  // Deferred processes are applied before the exchange is looked at, and before particles move on.
+  population_->applyDeferred();
+  Change change{population_->takeExchange(), {}};
+  change.resampled = population_->resampled();
+  return change;
 }
 
 std::vector<double> CellParticles::empty(std::uint64_t cell) const {

@@ -10,8 +10,8 @@
 namespace lampblack::coupling {
 namespace {
 
-// Microseconds, about, of a cell. Estimated as CellParticles::costPerParticle(), to weigh cells against each other and,
-// to a factor of two or so, against the gas.
+// Microseconds, about, of a cell. Estimated as StochasticPopulation::costPerParticle(), to weigh cells against each
+// other and, to a factor of two or so, against the gas.
 constexpr double costOfCell = 5.0;
 
 }  // namespace
@@ -27,7 +27,7 @@ std::vector<std::vector<double>> EnsembleOperator::unitElements(const Mechanism&
 double EnsembleOperator::absorption(const CellParticles& particles, Exchange exchange, double temperature,
                                     std::span<const double> amounts) {
   if (exchange == Exchange::OneWay) return 0.0;
-  return particles.absorption(temperature, particles.volumeOf(amounts));
+  return particles.population().absorption(temperature, particles.volumeOf(amounts));
 }
 
 EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOperator& flow,
@@ -108,12 +108,13 @@ EnsembleOperator::Result EnsembleOperator::solve(double dt, const SharedCellWork
   const std::size_t species = particles_->species().size();
   const std::span<const double> particles = task.rows.subspan(species);
   const auto arrived = static_cast<std::size_t>(task.input.arrived);
-  particles_->unpack(particles.first(particles.size() - arrived));
-  if (arrived > 0) particles_->join(particles.last(arrived));
-  const CellParticles::Change change = particles_->advance({task.input.gas, task.rows.first(species)}, dt);
-  for (const std::vector<double>* values : {&change.gas, &change.elements, &change.resampled}) rows.add(*values);
+  const CellParticles::Change change =
+      particles_->advance(particles.first(particles.size() - arrived), particles.last(arrived),
+                          {task.input.gas, task.rows.first(species)}, dt);
+  for (const std::vector<double>* values : {&change.exchange.gas, &change.exchange.elements, &change.resampled})
+    rows.add(*values);
   rows.add(particles_->pack());
-  return {costOfCell + particles_->costPerParticle() * particles_->cost()};
+  return {costOfCell + particles_->cost()};
 }
 
 void EnsembleOperator::take(State& state, int cell, bool isHeld, std::span<const double> rows) {
@@ -168,7 +169,7 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
   for (int cell = 0; cell < m.owned; ++cell) {
     const ParticleRows& rows = particles_->rows();
     const std::size_t count = rows.count(rows.of(populations_[cell])) + rows.count(arrived_[cell]);
-    if (count == 0 && !particles_->hasPrecursors(gasOf(state, cell, concentrations_))) {
+    if (count == 0 && !particles_->population().hasPrecursors(gasOf(state, cell, concentrations_))) {
       populations_[cell] = {};
       setOwed(state, cell);
       work_.setExpectedCost(cell, 0.0);
@@ -176,8 +177,9 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
     }
     // What it cost the last time, or once each particle.
     const double expected = work_.expectedCost(cell);
-    busy.push_back(
-        {cell, expected > 0.0 ? expected : costOfCell + particles_->costPerParticle() * static_cast<double>(count)});
+    busy.push_back({cell, expected > 0.0
+                              ? expected
+                              : costOfCell + particles_->population().costPerParticle() * static_cast<double>(count)});
   }
   SharedCellWork::Work<Packed, Result> work;
   work.pack = [&](std::size_t i, RowWriter rows) { return pack(state, busy[i].cell, rows); };

@@ -12,25 +12,19 @@ namespace {
 // Numbers of primaries: eight bins a factor of ten, the first with what has not coagulated; the last is without end.
 const SizeBins primaryBins{0.0, 8.0, 64};
 
-SootAggregate::Particle particleOf(const SootAggregate& type, const double* row) {
-  const GivenParticle p = particleAt(row);
-  return type.make(p.carbon, p.hydrogen, p.primaries);
-}
-
 }  // namespace
 
 void addSizes(const RowSizes& of, const SizeBins& bins, std::span<const double> population, std::span<double> density) {
   of.rows.forEach(of.rows.of(population), [&](const double* row) {
-    const std::size_t bin = bins.of(of.type.mobilityDiameter(particleOf(of.type, row)));
+    const std::size_t bin = bins.of(of.mobilityDiameter(row));
     if (bin < bins.count) density[bin] += row[packedNumberAt] / bins.width();
   });
 }
 
 double geometricDeviation(const RowSizes& of, std::span<const double> population) {
   WeightedDeviation deviation;
-  of.rows.forEach(of.rows.of(population), [&](const double* row) {
-    deviation.add(std::log(of.type.mobilityDiameter(particleOf(of.type, row))), row[packedNumberAt]);
-  });
+  of.rows.forEach(of.rows.of(population),
+                  [&](const double* row) { deviation.add(std::log(of.mobilityDiameter(row)), row[packedNumberAt]); });
   return deviation.geometric();
 }
 
@@ -78,7 +72,7 @@ std::vector<double> regionJointRows(const RowSizes& of, const SizeBins& bins, co
   for (const int c : region.cells()) {
     touched.clear();
     of.rows.forEach(of.rows.of(populations[static_cast<std::size_t>(c)]), [&](const double* row) {
-      const SootAggregate::Particle p = particleOf(of.type, row);
+      const SootAggregate::Particle p = of.particle(row);
       const double number = row[packedNumberAt];
       const std::size_t size = bins.of(of.type.primaryDiameter(p));
       if (size == bins.count) return;

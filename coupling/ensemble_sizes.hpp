@@ -1,4 +1,4 @@
-// Sizes of the particles of packed ensembles (particles/ensemble/particle_rows.hpp): of one cell, and of all cells in
+// Sizes of the particles of packed ensembles (particles/stochastic/particle_rows.hpp): of one cell, and of all cells in
 // a box, one distribution by mobility diameter and one by the primaries' diameter and number, from which mass and
 // surface follow.
 #pragma once
@@ -9,17 +9,10 @@
 #include "core/mesh_region.hpp"
 #include "core/modules.hpp"
 #include "core/quantity.hpp"
-#include "particles/ensemble/particle_rows.hpp"
-#include "particles/ensemble/size_bins.hpp"
-#include "particles/soot/soot_aggregate.hpp"
+#include "particles/stochastic/row_sizes.hpp"
+#include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::coupling {
-
-// How the particles of packed populations stand, and what their first values say of their sizes.
-struct RowSizes {
-  SootAggregate type;
-  ParticleRows rows;
-};
 
 // Adds dN/dlog10(d) (1/m3) by mobility diameter, as Ensemble::sizeDistribution().
 void addSizes(const RowSizes& of, const SizeBins& bins, std::span<const double> population, std::span<double> density);

@@ -20,7 +20,7 @@
 #include "core/modules.hpp"
 #include "core/state_archive.hpp"
 #include "flow/operator.hpp"
-#include "particles/ensemble/size_bins.hpp"
+#include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::coupling {
 

@@ -142,7 +142,7 @@ void EnsembleTransport::findDensities(const Gas& gas, double part, const std::ve
   for (int cell = 0; cell < m.owned; ++cell) {
     double* of = &density_[static_cast<std::size_t>(cell) * classes];
     const auto add = [&](const double* row) {
-      of[classOf((row[0] + row[1]) / options_.type.density())] += row[packedNumberAt];
+      of[classOf(massAt(row) / options_.type.density())] += row[packedNumberAt];
     };
     options_.rows.forEach(options_.rows.of(populations[cell]), add);
     options_.rows.forEach(arrived[cell], add);
@@ -223,7 +223,7 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
 // Of a particle: the sums of its probabilities to leave through the sides up to each of them. Returns its class of
 // size.
 int EnsembleTransport::sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const {
-  const double volume = (row[0] + row[1]) / options_.type.density(), primaries = row[2];
+  const double volume = massAt(row) / options_.type.density(), primaries = row[2];
   const int k = classOf(volume);
   double d = sphereDiameter(volume), ofMobility = volume;
   if (primaries > 1.0) {
@@ -378,7 +378,7 @@ int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Ro
   double most = 0.0;
   for (int cell = 0; cell < m.owned; ++cell) {
     double lightest = std::numeric_limits<double>::infinity();
-    const auto look = [&](const double* row) { lightest = std::min(lightest, row[0] + row[1]); };
+    const auto look = [&](const double* row) { lightest = std::min(lightest, massAt(row)); };
     options_.rows.forEach(options_.rows.of(populations[cell]), look);
     options_.rows.forEach(arrived[cell], look);
     if (!std::isfinite(lightest)) continue;

@@ -28,8 +28,8 @@
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
-#include "particles/ensemble/particle_rows.hpp"
 #include "particles/soot/soot_aggregate.hpp"
+#include "particles/stochastic/particle_rows.hpp"
 
 namespace lampblack::coupling {
 

@@ -6,7 +6,6 @@
 
 #include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
-#include "coupling/ensemble_species.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/models/soot_model.hpp"
 

@@ -39,16 +39,15 @@
 #include "coupling/exchange_in_gas.hpp"
 #include "coupling/particles_at_rest.hpp"
 #include "coupling/reactor_particles.hpp"
+#include "particles/stochastic/stochastic_population.hpp"
 
 namespace lampblack::coupling {
 
 // Particles of some elements, such as carbon and hydrogen, that change in a given gas.
 class SplitParticles {
  public:
-  struct Exchange {
-    std::vector<double> gas;       // mol/m3, of the species
-    std::vector<double> elements;  // kg/m3, gained by the particles: the same atoms
-  };
+  using Exchange = StochasticPopulation::Exchange;
+  using State = StochasticPopulation::State;
   virtual ~SplitParticles() = default;
   [[nodiscard]] virtual const std::vector<std::string>& elements() const { return sootElements(); }
   [[nodiscard]] static const std::vector<std::string>& sootElements();  // C, H
@@ -71,9 +70,6 @@ class SplitParticles {
   // Number of numerical particles removed at random, to limit their number, since the beginning.
   [[nodiscard]] virtual std::uint64_t removals() const { return 0; }
   // Everything that a step may change, for restore() after a rejected step.
-  struct State {
-    virtual ~State() = default;
-  };
   [[nodiscard]] virtual std::unique_ptr<State> save() const = 0;
   virtual void restore(const State& state) = 0;
 
@@ -81,12 +77,6 @@ class SplitParticles {
   SplitParticles() = default;
   SplitParticles(const SplitParticles&) = default;
   SplitParticles& operator=(const SplitParticles&) = default;
-};
-
-// The state of particles that are packed in numbers.
-struct PackedSplitState final : SplitParticles::State {
-  explicit PackedSplitState(std::vector<double> packed) : values(std::move(packed)) {}
-  std::vector<double> values;
 };
 
 class SplitReactor {

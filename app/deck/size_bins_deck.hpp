@@ -5,7 +5,7 @@
 
 #include "core/modules.hpp"
 #include "io/deck.hpp"
-#include "particles/ensemble/size_bins.hpp"
+#include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::app {
 

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "coupling/reactor_trees.hpp"
+#include "coupling/reactor_particles.hpp"
 #include "io/deck.hpp"
-#include "particles/ensemble/size_bins.hpp"
+#include "particles/stochastic/size_bins.hpp"
+#include "particles/trees/tree_ensemble.hpp"
 
 namespace lampblack::app {
 
@@ -19,7 +20,7 @@ struct TreeRequest {
   std::size_t repeats = 1;
   SizeBins bins;
   std::vector<double> tablesAt;  // s (plug flow: m), rising
-  // Edges of classes, rising, in the order of ReactorTrees::classedBy(); of none no averages are wanted.
+  // Edges of classes, rising, in the order of TreeEnsemble::classedBy(); of none no averages are wanted.
   std::vector<double> classesByDiameter, classesByPrimaries;
 };
 

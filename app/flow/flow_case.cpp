@@ -6,12 +6,12 @@
 
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/initial_distribution.hpp"
+#include "app/deck/population_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/size_bins_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
-#include "app/deck/trees_deck.hpp"
 #include "app/flow/flow_case_parts.hpp"
 #include "app/flow/flow_limits.hpp"
 #include "app/flow/given_fields.hpp"
@@ -22,11 +22,7 @@
 #include "core/random.hpp"
 #include "coupling/block_statistics.hpp"
 #include "coupling/carried_particles.hpp"
-#include "coupling/cell_soot.hpp"
-#include "coupling/cell_trees.hpp"
-#include "coupling/ensemble_species.hpp"
 #include "flow/models/carried_operator.hpp"
-#include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 
@@ -188,90 +184,14 @@ EnsembleStatistics::Options readStatistics(const Deck& deck, FlowCase& flowCase)
   return options;
 }
 
-// What goes wrong is said of the section.
-template <class Make>
-std::shared_ptr<CellParticles> makeCellParticles(const Deck& deck, const char* section, Make make) {
-  try {
-    return make();
-  } catch (const InputError& error) {
-    throw deck.error(section, error.what());
-  }
-}
-
-std::shared_ptr<CellParticles> readCellSoot(const Deck& deck, const FlowCase& flowCase) {
-  if (!deck.has("soot"))
-    throw deck.error("stochastic",
-                     "ensembles need the section 'soot': PAH, surface, switches; or 'particles', of another material");
-  if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
-    throw deck.error("soot.model",
-                     "ensembles in the cells take the place of a model: leave this out, or the section 'stochastic'");
-  EnsembleOptions options = readEnsemble(deck, readSootModelOptions(deck, *flowCase.mechanism, {})).soot;
-  options.seed = flowCase.seed;
-  options.leastNumberDensity = options.startNumberDensity = deck.quantity("stochastic.minimum_number_density");
-  options.bundledGrowth = deck.number("stochastic.bundled_growth");
-  return makeCellParticles(deck, "stochastic",
-                           [&] { return std::make_shared<CellSoot>(*flowCase.mechanism, options); });
-}
-
-std::shared_ptr<CellParticles> readCellTrees(const Deck& deck, const FlowCase& flowCase) {
-  if (!deck.has("stochastic"))
-    throw deck.error("particles",
-                     "in a flow these need the section 'stochastic', which says how the cells hold them: 'stochastic: "
-                     "{exchange: two_way}'");
-  if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
-    throw deck.error("soot.model", "trees in the cells take the place of a model: leave this out, or 'particles'");
-  for (const char* key : {"method", "particles", "shape", "fractal_dimension", "active_sites", "keep_hydrogen",
-                          "growth", "split_tolerance", "bundled_growth"})
-    if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))
-      throw deck.error(full, "this is of soot; what trees of primaries are like is said in the section 'particles'");
-  TreeOptions options = readTreeOptions(deck, *flowCase.mechanism);
-  if (deck.has("soot") && options.material.soot() == nullptr)
-    throw deck.error("soot", "the trees of 'particles' are of another material: leave this out");
-  options.seed = flowCase.seed;
-  options.fullAt = deck.quantity("stochastic.minimum_number_density");
-  return makeCellParticles(deck, "particles",
-                           [&] { return std::make_shared<CellTrees>(*flowCase.mechanism, options); });
-}
-
-constexpr const char* sootAtStart = "soot.initial";
-
-// Soot that the cells' ensembles begin with. A sample of equal numbers may miss what a few large particles hold.
-void readStartOfSoot(const Deck& deck, FlowCase& flowCase) {
-  if (!deck.has("soot")) return;
-  const InitialPopulation sizes = readInitialDistribution(deck, sootAtStart);
-  if (!(sizes.number > 0.0)) return;
-  const auto soot = std::dynamic_pointer_cast<CellSoot>(flowCase.cellParticles);
-  if (!soot)
-    throw deck.error(sootAtStart, "what trees of primaries begin with is said in 'particles.initial'; leave this out");
-  flowCase.startPopulation = [soot, sizes](std::uint64_t cell) { return soot->packed(sizes, cell); };
-  std::array<double, 4> moments{};
-  const double density = readSootModelOptions(deck, *flowCase.mechanism, {}).sootDensity;
-  for (const GivenParticle& particle : packedParticles(flowCase.startPopulation(0))) {
-    double share = particle.number;
-    for (double& moment : moments) {
-      moment += share;
-      share *= particle.carbon / density;
-    }
-  }
-  if (const std::string missed = missedMoments(sizes, moments); !missed.empty())
-    flowCase.notes.push_back(fmt::format(
-        "soot.initial: the numerical particles of a cell miss what a few large ones hold: {} times that of the "
-        "distribution; take more of them, or 'stochastic.method: sammc'",
-        missed));
-}
-
-void readStartOfTrees(const Deck& deck, FlowCase& flowCase) {
-  TreeOptions options = readTreeOptions(deck, *flowCase.mechanism);
-  options.seed = flowCase.seed;
-  const std::vector<TreeStart> starts = readTreeStart(deck, options);
-  if (starts.empty()) return;
-  const auto trees = std::dynamic_pointer_cast<CellTrees>(flowCase.cellParticles);
-  flowCase.startPopulation = [trees, starts](std::uint64_t cell) { return trees->packed(starts, cell); };
-}
-
 void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   EnsembleOperator::Options options;
-  flowCase.cellParticles = deck.has("particles") ? readCellTrees(deck, flowCase) : readCellSoot(deck, flowCase);
+  const PopulationRequest request = readCellPopulation(deck, flowCase.mechanism, flowCase.seed);
+  flowCase.cellParticles =
+      deck.at(request.section, [&] { return std::make_shared<CellParticles>(*flowCase.mechanism, request.make(0)); });
+  if (request.hasStart)
+    flowCase.startPopulation = [make = request.make](std::uint64_t cell) { return make(cell)->pack(); };
+  std::ranges::copy(request.notes, std::back_inserter(flowCase.notes));
   options.seed = flowCase.seed;
   options.bins = readSizeBins(deck, "stochastic");
   options.sizes = deck.boolean("stochastic.size_distribution");
@@ -285,8 +205,6 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   options.sweeps = deck.integer<int>("time.sweeps");
   if (deck.has("stochastic.statistics")) options.statistics = readStatistics(deck, flowCase);
   flowCase.ensembles = options;
-  if (deck.has("particles")) readStartOfTrees(deck, flowCase);
-  readStartOfSoot(deck, flowCase);
 }
 
 // Scalars of a model that begins with particles, the same in every cell.

@@ -15,7 +15,6 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "core/rank_exchange.hpp"
-#include "coupling/ensemble_species.hpp"
 #include "coupling/given_gas.hpp"
 #include "flow/paths/path_gas.hpp"
 #include "flow/paths/streamline.hpp"

@@ -13,7 +13,6 @@
 #include "app/tools/gas_input.hpp"
 #include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
-#include "coupling/ensemble_species.hpp"
 #include "coupling/flame_trajectory.hpp"
 #include "io/hdf5_reader.hpp"
 #include "io/request_limits.hpp"
@@ -161,10 +160,7 @@ ReactorCase readCoupled(const Deck& deck, const PrescribedGasCase& along) {
     }
   }
   coupled.output.species = coupled.depleted;
-  if (deck.has("particles"))
-    reactorcase::readTreePopulations(deck, coupled);
-  else
-    reactorcase::readEnsemblePopulations(deck, coupled);
+  reactorcase::readPopulations(deck, coupled);
   for (const double t : coupled.ensemble->tablesAt)
     if (t < coupled.rows.front() || t > coupled.end)
       throw deck.error("particles.tables_at",

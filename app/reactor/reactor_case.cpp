@@ -116,8 +116,7 @@ void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& rea
 }
 
 void readParticles(const Deck& deck, ReactorCase& reactorCase) {
-  if (deck.has("particles")) return reactorcase::readTreePopulations(deck, reactorCase);
-  if (deck.has("stochastic")) return reactorcase::readEnsemblePopulations(deck, reactorCase);
+  if (hasPopulation(deck)) return reactorcase::readPopulations(deck, reactorCase);
   auto model = readSootModel(deck, *reactorCase.mechanism);
   if (!model) return;
   if (deck.isGiven("soot.diffusion"))

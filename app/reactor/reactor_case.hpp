@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/deck/ensemble_deck.hpp"
+#include "app/deck/population_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/ignition.hpp"
@@ -17,7 +18,6 @@
 #include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
 #include "coupling/reactor_particles.hpp"
-#include "coupling/reactor_population.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {
@@ -32,21 +32,11 @@ struct ReactorOutput {
 };
 
 // Stochastic populations: repeats of the reactor with one each, whose random numbers have an owner each.
-struct ReactorPopulations {
-  std::size_t repeats = 1;
-  SizeBins bins;
-  std::string material;
-  std::vector<std::string> elements;
-  std::vector<std::size_t> species;  // that they exchange
-  bool predicted = false;            // coupled by predictor and corrector, or by splitting
-  PopulationMaker make;
-  std::vector<double> tablesAt;  // s (plug flow: m), rising: where every particle of the first repeat is written
-  // Classes of particles for averages: by which of ReactorPopulation::classedBy(), and the edges between them.
-  struct Classes {
-    std::size_t by = 0;
-    std::vector<double> edges;
-  };
-  std::vector<Classes> classes;
+struct ReactorPopulations : PopulationRequest {
+  std::string material = {};
+  std::vector<std::string> elements = {};
+  std::vector<std::size_t> species = {};  // that they exchange
+  bool predicted = false;                 // coupled by predictor and corrector, or by splitting
 };
 
 struct ReactorCase {

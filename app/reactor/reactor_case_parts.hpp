@@ -15,8 +15,7 @@ void readStirred(const Deck& deck, ReactorCase& reactorCase);
 void readNetwork(const Deck& deck, ReactorCase& reactorCase);
 // The stirred reactor before a duct, where there is one; the inlet is known.
 void readUpstream(const Deck& deck, ReactorCase& reactorCase);
-// Trees of the section `particles`, ensembles of the section `stochastic`; the rest of the case is known.
-void readTreePopulations(const Deck& deck, ReactorCase& reactorCase);
-void readEnsemblePopulations(const Deck& deck, ReactorCase& reactorCase);
+// Of a deck that asks for stochastic populations; the rest of the case is known.
+void readPopulations(const Deck& deck, ReactorCase& reactorCase);
 
 }  // namespace lampblack::app::reactorcase

@@ -12,7 +12,7 @@ namespace lampblack::app {
 
 std::size_t EnsembleClasses::size(const ReactorCase& reactorCase) {
   if (reactorCase.ensemble->classes.empty()) return 0;
-  const std::size_t averages = reactorCase.ensemble->make(0)->classAverages().size();
+  const std::size_t averages = reactorCase.ensemble->make(0)->functionals().size();
   std::size_t size = 0;
   for (const ReactorPopulations::Classes& by : reactorCase.ensemble->classes)
     size += (by.edges.size() + 1) * (1 + averages);
@@ -21,13 +21,14 @@ std::size_t EnsembleClasses::size(const ReactorCase& reactorCase) {
 
 EnsembleClasses::EnsembleClasses(const ReactorCase& reactorCase, const ReactorRepeatShape& shape) : rows_(shape.rows) {
   if (reactorCase.ensemble->classes.empty()) return;
-  const auto population = reactorCase.ensemble->make(0);
-  const auto averages = population->classAverages(), sortedBy = population->classedBy();
+  const auto made = reactorCase.ensemble->make(0);
+  const std::vector<ParticleFunctional> averages = made->functionals();
+  const std::vector<Quantity> sortedBy = made->classedBy();
   averages_ = averages.size();
   std::size_t first = 0;
   for (std::size_t r = 0; r < numReactors(reactorCase); ++r)
     for (const ReactorPopulations::Classes& by : reactorCase.ensemble->classes) {
-      const ReactorPopulation::Column& quantity = sortedBy[by.by];
+      const Quantity& quantity = sortedBy[by.by];
       Sorted sorted{reactorPrefix(reactorCase, r) + quantity.name, by.edges, first, {}, {}};
       sorted.columns = {columnsOfPlace(reactorCase)[0],
                         {"from", quantity.unit, "lower end of the class, of " + quantity.description},

@@ -42,8 +42,7 @@ std::vector<Quantity> ensembleColumns(const ReactorCase& reactorCase, bool hasEl
   std::vector<Quantity> ofReactor{{"temperature", "K", "gas temperature"},
                                   {"pressure", "Pa", "pressure"},
                                   {"density", "kg/m^3", "density of gas and particles"}};
-  for (const ReactorPopulation::Column& c : reactorCase.ensemble->make(0)->columns())
-    ofReactor.push_back({c.name, c.unit, c.description});
+  for (Quantity& column : reactorCase.ensemble->make(0)->columns()) ofReactor.push_back(std::move(column));
   ofReactor.push_back({reactorCase.ensemble->material + "_mass_exchanged", "kg/m^3",
                        "mass of particles by what they exchanged with the gas; differs from theirs by numerical "
                        "particles that come and go, zero in the mean"});

@@ -36,7 +36,9 @@ std::vector<double> elementsOfInflow(const ReactorCase& reactorCase, const React
 std::vector<std::unique_ptr<ReactorPopulation>> makePopulations(const ReactorCase& reactorCase, std::uint64_t repeat) {
   const std::size_t reactors = numReactors(reactorCase);
   std::vector<std::unique_ptr<ReactorPopulation>> all;
-  for (std::size_t r = 0; r < reactors; ++r) all.push_back(reactorCase.ensemble->make(repeat * reactors + r));
+  const ReactorPopulations& of = *reactorCase.ensemble;
+  for (std::size_t r = 0; r < reactors; ++r)
+    all.push_back(std::make_unique<ReactorPopulation>(of.make(repeat * reactors + r), of.viscosity));
   return all;
 }
 
@@ -104,7 +106,7 @@ void EnsembleRepeat::run(std::span<const double> places, const ReactorRepeatNumb
   const std::span<double> counts = numbers.counts();
   std::fill(counts.begin(), counts.end(), 0.0);
   for (const auto& population : populations_) {
-    const auto own = population->counts();
+    const auto own = population->population().counts();
     for (std::size_t c = 0; c < counts.size(); ++c) counts[c] += own[c].second;
   }
   numbers.work(Shape::isWhole) = 1;
@@ -120,12 +122,11 @@ void EnsembleRepeat::fill(std::size_t row, const ReactorRepeatNumbers<double>& n
     all.insert(all.end(), more.begin(), more.end());
   };
   for (std::size_t r = 0; r < populations_.size(); ++r) {
-    ReactorPopulation& population = *populations_[r];
+    StochasticPopulation& population = populations_[r]->population();
     population.applyDeferred();
     appendReactor(r, columns);
-    const SizeBins& bins = asked.bins;
     for (std::size_t k = 0; k < population.distributions().size(); ++k)
-      append(densities, population.distribution(k, bins.logMin, bins.logMax, bins.count));
+      append(densities, population.distribution(k, asked.bins));
     for (std::size_t k = 0; k < population.shares().size(); ++k)
       append(densities, population.shareDistribution(k, shareBins));
     for (const ReactorPopulations::Classes& by : asked.classes) append(classes, population.classSums(by.by, by.edges));
@@ -143,7 +144,7 @@ void EnsembleRepeat::appendReactor(std::size_t reactor, std::vector<double>& row
   const std::span<const double> Y = y.first(n), amounts = y.subspan(n + 1, elements + populations_.size());
   const double x = reactor_->position(), T = y[n], density = gas.density(x, y.data());
   row.insert(row.end(), {T, gas.pressure(x, y.data()), density});
-  const std::vector<double> values = populations_[reactor]->values(reactor_->gas(reactor));
+  const std::vector<double> values = populations_[reactor]->population().values(reactor_->gas(reactor));
   row.insert(row.end(), values.begin(), values.end());
   row.push_back(density *
                 std::accumulate(amounts.begin(), amounts.begin() + static_cast<std::ptrdiff_t>(elements), 0.0));

@@ -32,7 +32,9 @@ class EnsembleRepeat {
 
   // Rows at these places into numbers of this shape. NumericsError.
   void run(std::span<const double> places, const ReactorRepeatNumbers<double>& numbers, const AtRow& atRow);
-  [[nodiscard]] const ReactorPopulation& population(std::size_t reactor) const { return *populations_[reactor]; }
+  [[nodiscard]] const StochasticPopulation& population(std::size_t reactor) const {
+    return populations_[reactor]->population();
+  }
 
  private:
   void fill(std::size_t row, const ReactorRepeatNumbers<double>& numbers);

@@ -10,7 +10,7 @@
 
 namespace lampblack::app {
 
-void EnsembleTables::take(const ReactorPopulation& population, std::span<const double> row) {
+void EnsembleTables::take(const StochasticPopulation& population, std::span<const double> row) {
   if (taken_.size() == populations_.tablesAt.size()) return;
   const double wanted = populations_.tablesAt[taken_.size()];
   if (row[0] < wanted * (1 - 1e-9)) return;
@@ -20,13 +20,13 @@ void EnsembleTables::take(const ReactorPopulation& population, std::span<const d
 void EnsembleTables::write(ResultsWriter& results) const {
   if (populations_.tablesAt.empty()) return;
   // Ranks without values know what there is by a population without particles.
-  const std::vector<ReactorPopulation::Table> empty = populations_.make(0)->tables();
+  const std::vector<StochasticPopulation::Table> empty = populations_.make(0)->tables();
   for (std::size_t i = 0; i < populations_.tablesAt.size(); ++i) {
     const std::string group = fmt::format("/particles/tables/{}/", i);
     const bool has = i < taken_.size();
     results.table(group + "row", columns_, has ? taken_[i].row : std::vector<double>{});
     for (std::size_t t = 0; t < empty.size(); ++t) {
-      const ReactorPopulation::Table& table = has ? taken_[i].tables[t] : empty[t];
+      const StochasticPopulation::Table& table = has ? taken_[i].tables[t] : empty[t];
       for (const auto& column : table.columns)
         std::visit(
             [&, path = group + table.name + "/" + column.name](const auto& values) {

@@ -21,14 +21,14 @@ class EnsembleTables {
 
   // Offers the population as it stands at a row of its repeat, which begins with the place: kept if a table is wanted
   // there.
-  void take(const ReactorPopulation& population, std::span<const double> row);
+  void take(const StochasticPopulation& population, std::span<const double> row);
   // Collective; rank 0 has the values. Tables of moments that were not reached have no rows.
   void write(ResultsWriter& results) const;
 
  private:
   struct Taken {
     std::vector<double> row;
-    std::vector<ReactorPopulation::Table> tables;
+    std::vector<StochasticPopulation::Table> tables;
   };
   const ReactorPopulations& populations_;
   std::vector<Quantity> columns_;

@@ -19,11 +19,11 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "particles/ensemble/particle_rows.hpp"
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/population_solver.hpp"
 #include "particles/soot/soot_aggregate.hpp"
+#include "particles/stochastic/particle_rows.hpp"
 
 namespace lampblack::particles {
 

@@ -7,8 +7,8 @@
 
 #include "core/modules.hpp"
 #include "particles/ensemble/ensemble.hpp"
-#include "particles/ensemble/size_bins.hpp"
 #include "particles/gas/gas_path.hpp"
+#include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::particles {
 

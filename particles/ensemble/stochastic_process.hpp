@@ -282,4 +282,4 @@ void StochasticProcess<Method>::recordUptakeOfDimers(const SootMedium& medium, d
 
 #include "core/modules.hpp"
 #include "particles/ensemble/stochastic_growth.hpp"
-#include "particles/ensemble/stochastic_population.hpp"
+#include "particles/ensemble/stochastic_process_population.hpp"

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <utility>
 
+#include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack::particles {
@@ -41,6 +42,10 @@ std::vector<std::string> sootSpecies(const SootModelOptions& options) {
   std::vector<std::string> names{"H", "H2", "OH", "H2O", "O2", "C2H2", "CO"};
   for (const PahSpecies& pah : options.pah) names.push_back(pah.name);
   return names;
+}
+
+std::vector<std::size_t> indicesOfSootSpecies(const Mechanism& mechanism, const SootModelOptions& options) {
+  return knownSpecies(mechanism, sootSpecies(options), "ensembles need");
 }
 
 std::vector<std::string> sootPrecursors(const SootModelOptions& options) {

@@ -14,6 +14,10 @@
 #include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
 
+namespace lampblack::chemistry {
+class Mechanism;
+}
+
 namespace lampblack::particles {
 
 // Largest number of PAH species a deck may list; lets the models keep per-PAH arrays on the stack.
@@ -104,6 +108,9 @@ struct SootModelOptions {
 
 // Names of the species, as mechanisms call them.
 [[nodiscard]] std::vector<std::string> sootSpecies(const SootModelOptions& options);
+// Their places in a mechanism. InputError where it lacks one.
+[[nodiscard]] std::vector<std::size_t> indicesOfSootSpecies(const Mechanism& mechanism,
+                                                            const SootModelOptions& options);
 // Of the PAH alone.
 [[nodiscard]] std::vector<std::string> sootPrecursors(const SootModelOptions& options);
 

@@ -27,19 +27,36 @@ constexpr std::size_t lengthOfRow(std::size_t primaries) {
   return valuesOf<GivenParticle> + valuesOf<Sums> + primaries * valuesOf<TreeUnits> + (primaries - 1) * valuesOf<Neck>;
 }
 
+void setSums(TreeHead& tree, const Sums& h) {
+  tree.units = h.units;
+  tree.volume = h.volume;
+  tree.diameters = h.diameters;
+  tree.surfaces = h.surfaces;
+  tree.levels = h.levels;
+  tree.surface = h.surface;
+  tree.collision = h.collision;
+  tree.sintering = h.sintering;
+  tree.time = h.time;
+  tree.rest = h.rest;
+}
+
 InputError damaged() {
   return InputError("particles: the saved state of trees is damaged");
 }
 
 }  // namespace
 
-void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
+void packSums(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
   const TreeHead& h = tree.head();
   // So many equal spheres have its volume and its surface: S^3 / (36 pi V^2).
   const double ratio = std::max(1.0, h.surface / treeSphere(h.volume));
   packDoubles(to, GivenParticle{h.volume * material.density, 0, ratio * ratio * ratio, number});
   packDoubles(to, Sums{static_cast<double>(lengthOfRow(h.count)), static_cast<double>(h.count), h.units, h.volume,
                        h.diameters, h.surfaces, h.levels, h.surface, h.collision, h.sintering, h.time, h.rest});
+}
+
+void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
+  packSums(tree, number, material, to);
   for (const TreePrimary& primary : tree.primaries()) packDoubles(to, primary.units);
   for (const TreeNeck& n : tree.necks())
     packDoubles(to, Neck{n.common, static_cast<double>(n.left), static_cast<double>(n.right),
@@ -69,22 +86,16 @@ Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial
     neck.sphere = sphereOfNeck(primariesOf(tree), neck);
     necksOf(tree)[k] = neck;
   }
-  tree->units = h.units;
-  tree->volume = h.volume;
-  tree->diameters = h.diameters;
-  tree->surfaces = h.surfaces;
-  tree->levels = h.levels;
-  tree->surface = h.surface;
-  tree->collision = h.collision;
-  tree->sintering = h.sintering;
-  tree->time = h.time;
-  tree->rest = h.rest;
+  setSums(*tree, h);
   return handle;
 }
 
-PackedTreeSums sumsOfPackedTree(const double* row) {
+TreeHead headOfPackedTree(const double* row) {
   const auto h = PackedDoubles({row + packedParticle, valuesOf<Sums>}).next<Sums>();
-  return {h.count, h.units, h.surface};
+  TreeHead tree;
+  tree.count = static_cast<std::uint32_t>(h.count);
+  setSums(tree, h);
+  return tree;
 }
 
 }  // namespace lampblack::particles

@@ -20,10 +20,10 @@
 
 #include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
-#include "particles/ensemble/particle_rows.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/population_solver.hpp"
+#include "particles/stochastic/particle_rows.hpp"
 #include "particles/trees/tree_shape.hpp"
 
 namespace lampblack::particles {

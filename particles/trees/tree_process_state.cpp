@@ -4,9 +4,9 @@
 
 #include "core/errors.hpp"
 #include "core/packed_doubles.hpp"
-#include "particles/ensemble/particle_rows.hpp"
-#include "particles/ensemble/size_bins.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
+#include "particles/stochastic/particle_rows.hpp"
+#include "particles/stochastic/size_bins.hpp"
 #include "particles/trees/packed_tree.hpp"
 #include "particles/trees/tree_process.hpp"
 

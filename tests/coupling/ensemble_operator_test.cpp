@@ -9,7 +9,6 @@
 
 #include "core/constants.hpp"
 #include "core/state_backup.hpp"
-#include "coupling/cell_soot.hpp"
 #include "particles/models/soot_model.hpp"
 #include "tests/coupling/closed_box.hpp"
 #include "tests/coupling/soot_in_cells.hpp"

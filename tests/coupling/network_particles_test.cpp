@@ -7,7 +7,7 @@
 
 #include "chemistry/reactor/reactor_network.hpp"
 #include "coupling/reactor_balance.hpp"
-#include "coupling/reactor_ensemble.hpp"
+#include "tests/coupling/populations_in_reactors.hpp"
 #include "tests/coupling/toy_particles.hpp"
 #include "tests/effort.hpp"
 #include "tests/every_module.hpp"
@@ -103,7 +103,7 @@ class FlowingEnsembles : public ::testing::TestWithParam<EnsembleMethod> {
     const std::size_t count = network.reactors.size();
     std::vector<std::vector<double>> numbers(count), masses(count);
     for (std::size_t repeat = 0; repeat < repeats; ++repeat) {
-      std::vector<std::unique_ptr<ReactorEnsemble>> ensembles;
+      std::vector<std::unique_ptr<test::ReactorSoot>> ensembles;
       std::vector<SplitParticles*> particles;
       EnsembleOptions options;
       options.method = GetParam();
@@ -113,16 +113,16 @@ class FlowingEnsembles : public ::testing::TestWithParam<EnsembleMethod> {
       options.soot.oxidation = options.soot.coagulation = false;
       for (std::size_t r = 0; r < count; ++r) {
         options.owner = repeat * count + r;
-        ensembles.push_back(std::make_unique<ReactorEnsemble>(ethylene(), options));
+        ensembles.push_back(std::make_unique<test::ReactorSoot>(ethylene(), options));
         particles.push_back(ensembles.back().get());
         if (r > 0) continue;
         const auto full = makeEnsemble(options);
         std::vector<GivenParticle> given;
         for (std::size_t k = 0; k < 200; ++k) given.push_back({k < 150 ? 1e-22 : 7e-22, 1e-24, 1, number / 200});
         full->initialise(given);
-        ensembles[0]->restore(PackedSplitState(full->pack()));
+        ensembles[0]->population().unpack(full->pack());
       }
-      const double mass = ensembles[0]->population().totals().mass();
+      const double mass = ensembles[0]->ensemble().totals().mass();
       ParticlesAtRest atRest(count);
       NetworkSystem system(ethylene(), network, &atRest);
       SplitReactor::Options split;
@@ -134,7 +134,7 @@ class FlowingEnsembles : public ::testing::TestWithParam<EnsembleMethod> {
       reactors.start(0, startUnknowns(ethylene(), network, {false, gas}, atRest.size()));
       reactors.advance(end);
       for (std::size_t r = 0; r < count; ++r) {
-        const auto totals = ensembles[r]->population().totals();
+        const auto totals = ensembles[r]->ensemble().totals();
         numbers[r].push_back(totals.number / number);
         masses[r].push_back(totals.mass() / mass);
       }

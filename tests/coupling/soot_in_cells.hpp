@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <vector>
 
-#include "coupling/cell_soot.hpp"
 #include "coupling/ensemble_operator.hpp"
+#include "particles/ensemble/soot_ensemble.hpp"
 #include "tests/coupling/cell_vessel.hpp"
 #include "tests/every_module.hpp"
 
@@ -15,6 +17,19 @@ using Exchange = EnsembleOperator::Exchange;
 
 struct SootOptions : EnsembleOperator::Options {
   EnsembleOptions ensemble;
+};
+struct CellSoot : CellParticles {
+  // Of State::carried, as AmountPlaces has them.
+  enum Amount : std::size_t { number, carbon, hydrogen, primaries, surface, diameters, owedC, owedH, owedO };
+  CellSoot(const Mechanism& mechanism, const EnsembleOptions& options)
+      : CellParticles(mechanism, std::make_shared<SootEnsemble>(mechanism, options)) {}
+  [[nodiscard]] std::vector<double> packed(std::span<const GivenParticle> particles, std::uint64_t cell) const {
+    EnsembleOptions own = dynamic_cast<const SootEnsemble&>(population()).ensemble().options();
+    own.owner = cell;
+    const auto ensemble = makeEnsemble(own);
+    ensemble->initialise(particles);
+    return ensemble->pack();
+  }
 };
 inline std::shared_ptr<CellSoot> sootOf(const SootOptions& o) {
   return std::make_shared<CellSoot>(ethylene().mechanism, o.ensemble);

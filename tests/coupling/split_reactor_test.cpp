@@ -6,9 +6,9 @@
 #include "chemistry/reactor/plug_flow.hpp"
 #include "chemistry/reactor/reactor_network.hpp"
 #include "coupling/reactor_balance.hpp"
-#include "coupling/reactor_ensemble.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
 #include "tests/chemistry/measured.hpp"
+#include "tests/coupling/populations_in_reactors.hpp"
 #include "tests/coupling/toy_particles.hpp"
 #include "tests/effort.hpp"
 #include "tests/every_module.hpp"
@@ -259,15 +259,15 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
     stochastic.owner = r;
     stochastic.soot = sootOptions();
     stochastic.keepsHydrogen = false;
-    ReactorEnsemble ensemble(ethylene(), stochastic);
+    test::ReactorSoot ensemble(ethylene(), stochastic);
     SplitReactor::Options split;
     split.integrator = {1e-6, 1e-12, 0, 1000000};
     split.change = 0.1;
     SplitReactor march(ethylene(), own, ensemble, split);
     march.start(0, reactor.initialState());
     march.advance(end);
-    number.push_back(ensemble.population().totals().number);
-    fraction.push_back(ensemble.population().volumeFraction());
+    number.push_back(ensemble.ensemble().totals().number);
+    fraction.push_back(ensemble.ensemble().volumeFraction());
     temperature.push_back(march.state()[n]);
     ReactorBalance balance(ethylene(), atRest, atRest.unitElements(ethylene()));
     const std::vector<double> start = reactor.initialState();

@@ -95,9 +95,11 @@ class ToySplit final : public SplitParticles {
   [[nodiscard]] std::uint64_t removals() const override { return lost; }
   [[nodiscard]] bool idle(const ParticleGas&) const override { return isIdle; }
   [[nodiscard]] std::unique_ptr<State> save() const override {
-    return std::make_unique<PackedSplitState>(std::vector{carbon});
+    auto saved = std::make_unique<Saved>();
+    saved->carbon = carbon;
+    return saved;
   }
-  void restore(const State& state) override { carbon = dynamic_cast<const PackedSplitState&>(state).values[0]; }
+  void restore(const State& state) override { carbon = dynamic_cast<const Saved&>(state).carbon; }
 
   double carbon = 0;  // kg/m3
   bool knowsItsRate = false;
@@ -107,6 +109,9 @@ class ToySplit final : public SplitParticles {
   std::uint64_t lost = 0;
 
  private:
+  struct Saved final : State {
+    double carbon = 0;
+  };
   Toy toy_;
   std::vector<std::size_t> species_;
 };

@@ -5,8 +5,8 @@
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
-#include "particles/ensemble/particle_rows.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
+#include "particles/stochastic/particle_rows.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {

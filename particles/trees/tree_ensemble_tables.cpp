@@ -3,12 +3,13 @@
 #include <cstdint>
 #include <utility>
 
-#include "coupling/reactor_trees.hpp"
+#include "particles/trees/tree_ensemble.hpp"
+#include "particles/trees/tree_shape.hpp"
 
-namespace lampblack::coupling {
+namespace lampblack::particles {
 namespace {
 
-using Table = ReactorPopulation::Table;
+using Table = StochasticPopulation::Table;
 
 // Columns that are filled row by row, in their order.
 class TableRows {
@@ -30,7 +31,7 @@ class TableRows {
     empty.reserve(rows_);
     table_.columns.push_back({{std::move(name), std::move(unit), std::move(description)}, std::move(empty)});
   }
-  auto next() -> decltype(ReactorPopulation::TableColumn::values)& {
+  auto next() -> decltype(StochasticPopulation::TableColumn::values)& {
     auto& column = table_.columns[column_].values;
     column_ = (column_ + 1) % table_.columns.size();
     return column;
@@ -41,15 +42,16 @@ class TableRows {
 
 }  // namespace
 
-std::vector<ReactorPopulation::Table> ReactorTrees::tables() const {
-  const std::vector<Tree> trees = population_->trees();
+std::vector<StochasticPopulation::Table> TreeEnsemble::tables() const {
+  const std::vector<Tree> trees = trees_->trees();
   std::size_t count = 0;
   for (const Tree& tree : trees) count += tree.count();
   const auto components = [&](TableRows& rows, const std::string& of) {
-    for (const TreeComponent& c : material_.components) rows.real(c.name, "1", "units of " + c.name + " in the " + of);
+    for (const TreeComponent& c : options_.material.components)
+      rows.real(c.name, "1", "units of " + c.name + " in the " + of);
   };
   const auto units = [&](TableRows& rows, const TreeUnits& of) {
-    for (std::size_t c = 0; c < material_.components.size(); ++c) rows.put(of[c]);
+    for (std::size_t c = 0; c < options_.material.components.size(); ++c) rows.put(of[c]);
   };
 
   TableRows particles("particles", trees.size());
@@ -77,7 +79,7 @@ std::vector<ReactorPopulation::Table> ReactorTrees::tables() const {
   necks.real("common_surface", "m^2", "of the two primaries");
   necks.real("sintering_level", "1", "0 in point contact, 1 a sphere");
 
-  const double weight = population_->weight();
+  const double weight = trees_->weight();
   std::int64_t particle = 0, before = 0;
   for (const Tree& tree : trees) {
     const TreeHead& head = tree.head();
@@ -107,4 +109,4 @@ std::vector<ReactorPopulation::Table> ReactorTrees::tables() const {
   return all;
 }
 
-}  // namespace lampblack::coupling
+}  // namespace lampblack::particles

@@ -3,16 +3,14 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "core/modules.hpp"
-#include "coupling/reactor_population.hpp"
+#include "particles/stochastic/stochastic_population.hpp"
 #include "particles/trees/tree_material.hpp"
 #include "particles/trees/tree_pool.hpp"
 
-namespace lampblack::coupling {
+namespace lampblack::particles {
 
 class TreeFunctionals {
  public:
@@ -32,13 +30,13 @@ class TreeFunctionals {
   // Materials of one element have no ratio.
   [[nodiscard]] std::size_t size() const { return elementRatio + (hasRatio() ? 1 : 0); }
   [[nodiscard]] bool hasRatio() const { return !second_.empty(); }
-  [[nodiscard]] const ReactorPopulation::Column& column(std::size_t which) const { return columns_[which]; }
+  [[nodiscard]] const std::vector<ParticleFunctional>& all() const { return all_; }
   // SI; of no atoms of the second element infinite.
   [[nodiscard]] double of(const TreeHead& tree, std::size_t which) const;
 
  private:
-  std::vector<ReactorPopulation::Column> columns_;
+  std::vector<ParticleFunctional> all_;
   std::vector<double> first_, second_;  // atoms in a unit of each component
 };
 
-}  // namespace lampblack::coupling
+}  // namespace lampblack::particles

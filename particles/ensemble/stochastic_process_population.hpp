@@ -8,10 +8,10 @@
 #include "core/modules.hpp"
 #include "core/packed_doubles.hpp"
 #include "numerics/vector_math.hpp"
-#include "particles/ensemble/size_bins.hpp"
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
+#include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::particles {
 

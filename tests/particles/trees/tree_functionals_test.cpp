@@ -1,17 +1,18 @@
 // What is told of trees: of spheres and of two in contact by hand, distributions and classes that add up, and rates
 // against sums over all pairs.
-#include "coupling/tree_functionals.hpp"
+#include "particles/trees/tree_functionals.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numeric>
 
-#include "coupling/reactor_trees.hpp"
-#include "tests/coupling/toy_particles.hpp"
+#include "particles/trees/tree_ensemble.hpp"
+#include "tests/every_module.hpp"
 #include "tests/particles/trees/tree_fixtures.hpp"
+#include "tests/source_folder.hpp"
 
-namespace lampblack::coupling {
+namespace lampblack::particles {
 namespace {
 
 using Which = TreeFunctionals;
@@ -25,8 +26,7 @@ struct Sample {
     options.material.sintering.prefactor = 1e-10;
     options.particles = 400;
     options.owner = 3;
-    trees = std::make_unique<ReactorTrees>(mechanism(), options, GasViscosity::air,
-                                           std::vector<TreeStart>{{{2107, 3960, 398}, 1e17}});
+    trees = std::make_unique<TreeEnsemble>(mechanism(), options, std::vector<TreeStart>{{{2107, 3960, 398}, 1e17}});
     trees->advance(gas(3e-8), 0.02);
     trees->applyDeferred();
   }
@@ -41,7 +41,7 @@ struct Sample {
   }
   std::array<double, 2> concentrations{};
   TreeOptions options;
-  std::unique_ptr<ReactorTrees> trees;
+  std::unique_ptr<TreeEnsemble> trees;
 };
 
 // The ratio is the last functional, and there where a material has two elements.
@@ -60,11 +60,11 @@ TEST(TreeFunctionals, OfASphereAreItsDiameterAndAtoms) {
   const double d = treeDiameter(material.volume({10, 15, 6}));
   for (const auto which :
        {Which::collisionDiameter, Which::sphereDiameter, Which::mobilityDiameter, Which::primaryDiameter})
-    EXPECT_NEAR(functionals.of(sphere.head(), which) / d, 1, 1e-12) << functionals.column(which).name;
+    EXPECT_NEAR(functionals.of(sphere.head(), which) / d, 1, 1e-12) << functionals.all()[which].name;
   EXPECT_EQ(functionals.of(sphere.head(), Which::primaries), 1);
   EXPECT_EQ(functionals.of(sphere.head(), Which::sinteringLevel), 1);
   EXPECT_NEAR(functionals.of(sphere.head(), Which::elementRatio), 10.0 / 21, 1e-15);
-  EXPECT_EQ(functionals.column(Which::elementRatio).name, "Si_to_O");
+  EXPECT_EQ(functionals.all()[Which::elementRatio].name, "Si_to_O");
 }
 
 TEST(TreeFunctionals, OfTwoEqualSpheresInContact) {
@@ -82,10 +82,10 @@ TEST(TreeFunctionals, OfTwoEqualSpheresInContact) {
 
 TEST(TreeFunctionals, DistributionsHaveAllParticlesOrPrimaries) {
   Sample sample;
-  const TreeTotals totals = sample.trees->population().totals();
+  const TreeTotals totals = sample.trees->trees().totals();
   const auto sizes = sample.trees->distributions();
   for (std::size_t k = 0; k < sizes.size(); ++k) {
-    const auto density = sample.trees->distribution(k, -9.4, -6.4, 60);
+    const auto density = sample.trees->distribution(k, {-9.4, -6.4, 60});
     const double number = 0.05 * std::accumulate(density.begin(), density.end(), 0.0);
     const bool ofPrimaries = sizes[k].name == "primary_";
     EXPECT_NEAR(number / (ofPrimaries ? totals.primaries : totals.number), 1, 1e-12) << sizes[k].name;
@@ -100,16 +100,16 @@ TEST(TreeFunctionals, DistributionsHaveAllParticlesOrPrimaries) {
 TEST(TreeFunctionals, SinglePrimariesAreInTheLastBinOfLevels) {
   Sample sample;
   double single = 0;
-  sample.trees->population().forEachTree([&](const Tree& t, double number) { single += t.count() == 1 ? number : 0; });
+  sample.trees->trees().forEachTree([&](const Tree& t, double number) { single += t.count() == 1 ? number : 0; });
   ASSERT_GT(single, 0);
   EXPECT_GE(sample.trees->shareDistribution(0, 40).back() / 40, single * (1 - 1e-12));
 }
 
 TEST(TreeFunctionals, ClassesAddUpToTheMeansOfAll) {
   Sample sample;
-  const TreeTotals totals = sample.trees->population().totals();
+  const TreeTotals totals = sample.trees->trees().totals();
   const std::vector<std::vector<double>> edges{{9 * functionalNm, 20 * functionalNm}, {2, 5, 1000}};
-  const std::size_t width = 1 + sample.trees->classAverages().size();
+  const std::size_t width = 1 + sample.trees->functionals().size();
   for (std::size_t by = 0; by < edges.size(); ++by) {
     const std::vector<double> sums = sample.trees->classSums(by, edges[by]);
     ASSERT_EQ(sums.size(), (edges[by].size() + 1) * width);
@@ -132,7 +132,7 @@ TEST(TreeFunctionals, ClassesAddUpToTheMeansOfAll) {
   // Single primaries are below two, and whoever has as many as an edge is above it.
   const std::vector<double> byPrimaries = sample.trees->classSums(1, std::array{2.0});
   double single = 0;
-  sample.trees->population().forEachTree([&](const Tree& t, double number) { single += t.count() == 1 ? number : 0; });
+  sample.trees->trees().forEachTree([&](const Tree& t, double number) { single += t.count() == 1 ? number : 0; });
   EXPECT_GT(single, 0);
   EXPECT_NEAR(byPrimaries[0] / single, 1, 1e-12);
 }
@@ -141,7 +141,7 @@ TEST(TreeFunctionals, ClassesAddUpToTheMeansOfAll) {
 TEST(TreeFunctionals, TheRatioOfSootIsFinite) {
   const TreeMaterial soot = sootMaterial({});
   const TreeFunctionals functionals(soot);
-  EXPECT_EQ(functionals.column(TreeFunctionals::elementRatio).name, "H_to_C");
+  EXPECT_EQ(functionals.all()[TreeFunctionals::elementRatio].name, "H_to_C");
   const PrimaryTrees type(soot, CollisionSize::volumeToSurface);
   EXPECT_EQ(functionals.of(type.make(TreeUnits{100, 0, 0}).head(), TreeFunctionals::elementRatio), 0);
   EXPECT_NEAR(functionals.of(type.make(TreeUnits{100, 25, 0}).head(), TreeFunctionals::elementRatio), 0.25, 1e-15);
@@ -150,7 +150,7 @@ TEST(TreeFunctionals, TheRatioOfSootIsFinite) {
 TEST(TreeRates, AreThoseOfTheLawsSummedOverTreesAndPairs) {
   Sample sample;
   const ParticleGas gas = sample.gas(3e-8);
-  const TreePopulation& population = sample.trees->population();
+  const TreePopulation& population = sample.trees->trees();
   const TreeMaterial& m = sample.options.material;
   const TreeRates rates = population.rates(gas, 200000);
   const double molecules = 3e-8 * constants::avogadro;
@@ -190,7 +190,7 @@ TEST(TreeRates, AreThoseOfTheLawsSummedOverTreesAndPairs) {
 TEST(TreeRates, ThePrecursorGoesToNucleiAndSurfaces) {
   Sample sample;
   const ParticleGas gas = sample.gas(3e-6);
-  const TreeRates rates = sample.trees->population().rates(gas, 0);
+  const TreeRates rates = sample.trees->trees().rates(gas, 0);
   ASSERT_GT(rates.inceptions, 0);
   ASSERT_GT(rates.reactions, 0);
   const auto rate = sample.trees->rateOf(0, gas);
@@ -221,10 +221,10 @@ TEST(TreeRates, EventsOfTheSampleAreThoseOfTheGasByItsWeight) {
   // Born of the gas, too few to fill the sample: it is neither doubled nor contracted.
   sample.options.particles = 4000;
   sample.options.fullAt = 4e18;
-  sample.trees = std::make_unique<ReactorTrees>(Sample::mechanism(), sample.options, GasViscosity::air,
-                                                std::span<const TreeStart>{});
+  sample.trees = std::make_unique<TreeEnsemble>(Sample::mechanism(), sample.options);
   sample.trees->advance(sample.gas(1e-5), 1e-4);
-  const TreeCounters counters = sample.trees->population().counters();
+  static_cast<void>(sample.trees->takeExchange());
+  const TreeCounters counters = sample.trees->trees().counters();
   ASSERT_EQ(counters.doublings + counters.removals, 0U);
   const auto columns = sample.trees->columns();
   const std::vector<double> values = sample.trees->values(sample.gas(1e-5));
@@ -238,10 +238,10 @@ TEST(TreeRates, EventsOfTheSampleAreThoseOfTheGasByItsWeight) {
   for (const char* process : {"inception", "coagulation", "surface_reaction", "condensation"}) {
     const double events = value(std::string(process) + "_events");
     EXPECT_GT(events, 0) << process;
-    EXPECT_NEAR(value(std::string(process) + "s") / (events * sample.trees->population().weight()), 1, 1e-9) << process;
+    EXPECT_NEAR(value(std::string(process) + "s") / (events * sample.trees->trees().weight()), 1, 1e-9) << process;
   }
   EXPECT_GT(value("mass_cubed") * value("mass"), value("mass_squared") * value("mass_squared"));
 }
 
 }  // namespace
-}  // namespace lampblack::coupling
+}  // namespace lampblack::particles

@@ -1,12 +1,11 @@
 // Trees of primaries in the cells of a flow: silicon and heat of gas and particles together, ranks and work sharing do
 // not show, and a restart goes on to the same bits.
-#include "coupling/cell_trees.hpp"
-
 #include <gtest/gtest.h>
 
 #include "core/errors.hpp"
 #include "core/state_backup.hpp"
 #include "particles/models/element_enthalpies.hpp"
+#include "particles/trees/tree_ensemble.hpp"
 #include "tests/coupling/cell_vessel.hpp"
 #include "tests/effort.hpp"
 
@@ -16,6 +15,10 @@ namespace {
 Gas& teos() {
   static Gas gas("methane_teos_29.yaml");
   return gas;
+}
+
+std::shared_ptr<CellParticles> inCellsOf(const Mechanism& mechanism, const TreeOptions& options) {
+  return std::make_shared<CellParticles>(mechanism, std::make_shared<TreeEnsemble>(mechanism, options));
 }
 
 TreeOptions trees() {
@@ -48,7 +51,7 @@ struct Silica : CellVessel {
                   1200.0 + 300.0 * part,
                   teos().massFractions(fmt::format("N2: 0.99, H2O: 0.01, H4O4SI: {:.17g}", 1e-5 + 2e-4 * part))};
             },
-            std::make_shared<CellTrees>(teos().mechanism, kind), o, comm) {
+            inCellsOf(teos().mechanism, kind), o, comm) {
     // What came and went with numerical particles.
     ensembles.watchAmounts([this](std::span<const double> came, std::span<const double> gone) {
       for (std::size_t e = 0; e < particles->elements().size(); ++e) {
@@ -217,7 +220,7 @@ TEST(TreesInCells, OfSootKeepCarbonHydrogenAndOxygen) {
                           ethylene().massFractions("N2: 0.8, C2H2: 0.08, H2: 0.06, H: 5e-4, OH: 1e-5, H2O: 0.04, CO: "
                                                    "0.02, A2: 2e-4")};
       },
-      std::make_shared<CellTrees>(mechanism, o), inCells(1e-4));
+      inCellsOf(mechanism, o), inCells(1e-4));
   const std::vector<std::string>& held = v.particles->elements();
   ASSERT_EQ(held.size(), 2U) << "carbon and hydrogen";
   std::array<double, 2> resampled{};
@@ -236,7 +239,7 @@ TEST(TreesInCells, OfSootKeepCarbonHydrogenAndOxygen) {
     });
     EXPECT_GT(inParticles, 1e-6 * before[e]) << held[e];
   }
-  EXPECT_GT(v.particles->absorption(1500.0, 1e-6), 0.0);
+  EXPECT_GT(v.particles->population().absorption(1500.0, 1e-6), 0.0);
 }
 
 TEST(TreesInCells, AreRefusedWhereTheirHeatIsNotKnown) {
@@ -251,7 +254,7 @@ TEST(TreesInCells, AreRefusedWhereTheirHeatIsNotKnown) {
   r.site = 0;
   r.bridge = 1;
   try {
-    const CellTrees refused(teos().mechanism, o);
+    static_cast<void>(inCellsOf(teos().mechanism, o));
     FAIL() << "its heat is not known";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("the heat of particles of snow"), std::string::npos) << error.what();

@@ -59,5 +59,8 @@ struct ParticleRows {
 [[nodiscard]] inline GivenParticle particleAt(const double* row) {
   return {row[0], row[1], row[2], row[3]};
 }
+[[nodiscard]] inline double massAt(const double* row) {  // kg
+  return row[0] + row[1];
+}
 
 }  // namespace lampblack::particles

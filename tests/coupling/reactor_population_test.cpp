@@ -1,6 +1,4 @@
 // Trees of primaries in a closed reactor: atoms of gas and particles, and what a mechanism has to have.
-#include "coupling/reactor_trees.hpp"
-
 #include <gtest/gtest.h>
 
 #include "chemistry/reactor/closed_reactor.hpp"
@@ -9,12 +7,15 @@
 #include "core/errors.hpp"
 #include "coupling/exchange_in_gas.hpp"
 #include "coupling/reactor_balance.hpp"
+#include "tests/coupling/populations_in_reactors.hpp"
 #include "tests/coupling/toy_particles.hpp"
 #include "tests/effort.hpp"
 #include "tests/particles/statistics.hpp"
 
 namespace lampblack::coupling {
 namespace {
+
+using test::ReactorTrees;
 
 const Mechanism& siliconMechanism() {
   static const Mechanism mechanism = Mechanism::fromFile(test::sourcePath("cases/mechanisms/silica_teos_29.yaml"));
@@ -70,9 +71,9 @@ TEST(ReactorTrees, KeepsSiliconOxygenAndHydrogenToRoundOff) {
     const auto at = static_cast<std::size_t>(std::find(trees.elements().begin(), trees.elements().end(), "Si") -
                                              trees.elements().begin());
     EXPECT_GT(y[n + 1 + at], 0.5 * elements(start)[silicon]);
-    ASSERT_EQ(trees.population().counters().removals, 0U);
+    ASSERT_EQ(trees.trees().counters().removals, 0U);
     const double booked = reactor.density(y.data()) * y[n + 1 + at] / mechanism.atomicWeight(silicon);
-    EXPECT_NEAR(trees.population().totals().units[0] / (booked * constants::avogadro), 1, 1e-6);
+    EXPECT_NEAR(trees.trees().totals().units[0] / (booked * constants::avogadro), 1, 1e-6);
   }
 }
 
@@ -149,7 +150,7 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
     const auto y = both.state();
     double exchanged = 0;
     for (std::size_t e = 0; e < trees.elements().size(); ++e) exchanged += reactor.density(y.data()) * y[n + 1 + e];
-    ratios.push_back(trees.population().totals().mass / exchanged);
+    ratios.push_back(trees.trees().totals().mass / exchanged);
     removals += static_cast<double>(trees.removals());
   }
   EXPECT_GT(removals, static_cast<double>(repeats * 64));
@@ -230,8 +231,8 @@ class SootTreesInReactors : public testing::Test {
       EXPECT_NEAR(energy(y), energy(start), 1e-6 * 2e6);  // cp T is about 2e6 J/kg
     }
     // What was booked is what the sample has.
-    ASSERT_EQ(trees.population().counters().removals, 0U);
-    const TreeTotals totals = trees.population().totals();
+    ASSERT_EQ(trees.trees().counters().removals, 0U);
+    const TreeTotals totals = trees.trees().totals();
     ASSERT_GT(totals.largest, 2U);
     for (std::size_t c = 0; c < 2; ++c) {
       const TreeComponent component = sootMaterial({}).components[c];
@@ -254,9 +255,9 @@ TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
   own.kept = {Kept::internalEnergy};
   expectKept(reactor, own, reactor.initialState(), 1e-3);
   // Where necks may break, it is told how many did.
-  const auto columns = trees.columns();
+  const auto columns = trees.population().columns();
   const std::vector<double> concentrations(trees.species().size(), 1e-3);
-  const std::vector<double> values = trees.values({1900, gas.pressure, 0.17, 6e-5, 0.028, concentrations});
+  const std::vector<double> values = trees.population().values({1900, gas.pressure, 0.17, 6e-5, 0.028, concentrations});
   ASSERT_EQ(columns.size(), values.size());
   const auto at = [&](const std::string& name) {
     for (std::size_t k = 0; k < columns.size(); ++k)
@@ -266,7 +267,7 @@ TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
   };
   EXPECT_GT(at("soot_fragmentations"), 0);
   EXPECT_GT(at("soot_fragmentation_rate"), 0);
-  EXPECT_EQ(at("soot_fragmentation_events"), static_cast<double>(trees.population().counters().fragmentations));
+  EXPECT_EQ(at("soot_fragmentation_events"), static_cast<double>(trees.trees().counters().fragmentations));
 }
 
 TEST_F(SootTreesInReactors, PlugFlowKeepsElementsAndEnergy) {
@@ -310,7 +311,7 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   split.start(0, start);
   const double residence = system.density(start.data()) * 1e-4 / massFlow;
   split.advance(1.7 * residence);
-  EXPECT_NEAR(inert.population().totals().number / (1e16 * std::exp(-1.7)), 1, 1e-5);
+  EXPECT_NEAR(inert.trees().totals().number / (1e16 * std::exp(-1.7)), 1, 1e-5);
 
   ReactorTrees carried(mechanism, sootOptions(false), GasViscosity::transport,
                        std::vector<TreeStart>{{{1e5, 1e4}, 1e16}});
@@ -322,7 +323,7 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   along.start(0, flow.initialState());
   along.advance(0.5);
   EXPECT_NEAR(along.state()[n], 1300, 1e-6);
-  EXPECT_NEAR(carried.population().totals().number / (1e16 * 1000 / 1300), 1, 1e-9);
+  EXPECT_NEAR(carried.trees().totals().number / (1e16 * 1000 / 1300), 1, 1e-9);
 }
 
 // From one reactor to the next: of equal residence times tau, the second holds t/tau exp(-t/tau) of what there was in
@@ -355,10 +356,10 @@ TEST_F(SootTreesInReactors, ParticlesFlowFromReactorToReactor) {
   split.start(0, startUnknowns(mechanism, network, {false, nitrogen}, system.numCarried()));
   for (const double t : {0.5, 1.0, 2.0}) {
     split.advance(t * residence);
-    EXPECT_NEAR(first.population().totals().number / (number * std::exp(-t)), 1, 1e-5);
-    EXPECT_NEAR(second.population().totals().number / (number * t * std::exp(-t)), 1, 0.02);
+    EXPECT_NEAR(first.trees().totals().number / (number * std::exp(-t)), 1, 1e-5);
+    EXPECT_NEAR(second.trees().totals().number / (number * t * std::exp(-t)), 1, 0.02);
   }
-  EXPECT_NEAR(second.population().totals().units[0] / second.population().totals().number, units, 1e-6 * units);
+  EXPECT_NEAR(second.trees().totals().units[0] / second.trees().totals().number, units, 1e-6 * units);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "coupling/tree_functionals.hpp"
+#include "particles/trees/tree_functionals.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,23 +7,29 @@
 #include "particles/soot/soot_aggregate.hpp"
 #include "particles/trees/tree_shape.hpp"
 
-namespace lampblack::coupling {
+namespace lampblack::particles {
+namespace {
+
+using Use = ParticleFunctional::Use;
+
+}  // namespace
 
 TreeFunctionals::TreeFunctionals(const TreeMaterial& material)
-    : columns_{{"collision_diameter", "m", "diameter of collision"},
-               {"sphere_diameter", "m", "diameter of the sphere of the particle's volume"},
-               {"mobility_diameter", "m", "diameter of mobility, by that of soot's aggregates"},
-               {"primaries", "1", "primary particles in a particle"},
-               {"primary_diameter", "m", "mean diameter of the particle's primaries"},
-               {"sintering_level", "1", "mean sintering level of the particle; of one primary 1"}} {
+    : all_{{{"collision_diameter", "m", "diameter of collision"}, Use::size, true},
+           {{"sphere_diameter", "m", "diameter of the sphere of the particle's volume"}, Use::size},
+           {{"mobility_diameter", "m", "diameter of mobility, that of soot's aggregates"}, Use::size},
+           {{"primaries", "1", "primary particles in a particle"}, Use::plain, true},
+           {{"primary_diameter", "m", "mean diameter of the particle's primaries"}},
+           {{"sintering_level", "1", "mean sintering level of the particle; of one primary 1"}, Use::share}} {
   std::vector<std::string> elements;
   for (const TreeComponent& component : material.components)
     for (const auto& [element, atoms] : component.elements)
       if (std::find(elements.begin(), elements.end(), element) == elements.end()) elements.push_back(element);
   if (elements.size() < 2) return;
   if (material.soot() != nullptr) std::swap(elements[0], elements[1]);  // soot may have no hydrogen
-  columns_.push_back({elements[0] + "_to_" + elements[1], "1",
-                      "atoms of " + elements[0] + " over those of " + elements[1] + " in the particle"});
+  all_.push_back({{elements[0] + "_to_" + elements[1], "1",
+                   "atoms of " + elements[0] + " over those of " + elements[1] + " in the particle"},
+                  Use::share});
   for (const TreeComponent& component : material.components) {
     const auto atomsOf = [&](const std::string& wanted) {
       double sum = 0;
@@ -63,4 +69,4 @@ double TreeFunctionals::of(const TreeHead& tree, std::size_t which) const {
   return first / second;
 }
 
-}  // namespace lampblack::coupling
+}  // namespace lampblack::particles

@@ -1,0 +1,54 @@
+// Soot as spheres or aggregates, an Ensemble, as a kind of stochastic population.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "core/modules.hpp"
+#include "particles/ensemble/ensemble.hpp"
+#include "particles/population/model/population_model.hpp"
+#include "particles/stochastic/stochastic_population.hpp"
+
+namespace lampblack::particles {
+
+class SootEnsemble final : public StochasticPopulation {
+ public:
+  // InputError where the mechanism lacks a species that soot exchanges, and as makeEnsemble(). `start`: spheres of
+  // carbon that are there from the beginning, as many numerical ones as there may be: of equal numbers where the method
+  // has such, else as initialParticles().
+  SootEnsemble(const Mechanism& mechanism, EnsembleOptions options, const InitialPopulation& start = {});
+
+  [[nodiscard]] Ensemble& ensemble() const { return *ensemble_; }
+
+  [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
+  [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
+  void advance(const ParticleGas& gas, double dt) override { ensemble_->advance(gas, 0, dt); }
+  Exchange takeExchange() override;
+  [[nodiscard]] std::vector<double> resampled() const override { return resampled_; }
+  void dilute(double factor) override { ensemble_->dilute(factor); }
+  [[nodiscard]] std::size_t size() const override { return ensemble_->size(); }
+  [[nodiscard]] std::uint64_t removals() const override { return ensemble_->counters().removals; }
+  [[nodiscard]] double cost() const override { return ensemble_->cost(); }
+  [[nodiscard]] double costPerParticle() const override { return 0.06; }
+  [[nodiscard]] std::vector<double> pack() const override { return ensemble_->pack(); }
+  void unpack(std::span<const double> state) override { ensemble_->unpack(state); }
+  [[nodiscard]] std::vector<double> content() override;
+  void join(std::span<const double> rows, double share) override;
+  void addAmounts(const double* row, double number, std::span<double> amounts) const override;
+  [[nodiscard]] std::vector<Quantity> columns() const override;
+  [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override;
+  [[nodiscard]] std::vector<ParticleFunctional> functionals() const override;
+  [[nodiscard]] double functional(std::size_t, const double* row) const override {
+    return sizes().mobilityDiameter(row);
+  }
+  void forEachRow(const std::function<void(const double* row)>& f) const override;
+
+ private:
+  std::unique_ptr<Ensemble> ensemble_;
+  std::vector<double> resampled_;
+};
+
+}  // namespace lampblack::particles
