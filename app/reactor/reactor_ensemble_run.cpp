@@ -143,12 +143,17 @@ class EnsembleReactorDriver : public ReactorDriver {
           "note: samples were full: {:g} numerical particles were removed at random, which keeps mass in the "
           "mean only; choose a larger 'particles.number' or 'particles.expected_number'\n",
           removals);
-    if (const double starved = count("samples_never_full"); starved > 0)
+    if (const double starved = count("samples_never_full"); starved > 0) {
+      double largest = 0;
+      for (std::size_t r = 0; r < numReactors(case_); ++r)
+        largest =
+            std::max(largest, summary_.largest(reactorPrefix(case_, r) + case_.ensemble->material + "_number_density"));
       fmt::print(
           "note: {:g} samples were never three quarters full, so that they were not doubled as particles became few: "
           "noise grows with time; choose 'particles.expected_number' near the largest number density, {:.2g} 1/m^3 "
           "in this run\n",
-          starved, summary_.largest(case_.ensemble->material + "_number_density"));
+          starved, largest);
+    }
   }
 
   long steps() const override { return static_cast<long>(whole(Shape::steps)); }

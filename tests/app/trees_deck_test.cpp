@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "app/deck/population_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "tests/flow/flame/streams.hpp"
@@ -116,6 +117,45 @@ TEST(TreesDeck, SilicaKeepsItsOwnDefaults) {
   EXPECT_EQ(request.viscosity, GasViscosity::air);
   EXPECT_EQ(request.options.kernel.slip, SlipLaw::air);
   EXPECT_EQ(request.options.material.sintering.mechanism, SinteringMechanism::viscousFlow);
+}
+
+// One factory for every kind: an owner of random numbers of its own for each, and what the start says.
+TEST(PopulationDeck, MakesTheKindThatADeckAsksFor) {
+  const auto requestOfDeck = [](const std::string& mechanism, const std::string& text) {
+    const Deck deck = Deck::parse(
+        "problem: reactor\nmechanism: m.yaml\nreactor: {type: constant_pressure}\n"
+        "time: {end: 1 s}\n" +
+            text,
+        "deck.yaml", {}, reactorSchema());
+    EXPECT_TRUE(hasPopulation(deck));
+    return readPopulation(deck, std::make_shared<Mechanism>(shippedMechanism(mechanism)));
+  };
+  const auto ownerOfMade = [](const StochasticPopulation& made) {
+    const std::vector<double> packed = made.pack();
+    return ownerOf({packed[packedOwnerAt], packed[packedOwnerAt + 1]});
+  };
+  const PopulationRequest trees =
+      requestOfDeck("silica_teos_29.yaml",
+                    "particles: {material: silica, number: 100, initial: {number: 1e15 1/m^3, units: [10, 15, 6]},\n"
+                    "  classes: {primaries: [2, 10]}}\n");
+  EXPECT_EQ(trees.section, "particles");
+  EXPECT_EQ(trees.viscosity, GasViscosity::air);
+  EXPECT_TRUE(trees.hasStart);
+  ASSERT_EQ(trees.classes.size(), 1U);
+  const auto silica = trees.make(7);
+  EXPECT_EQ(silica->material(), "silica");
+  EXPECT_EQ(silica->size(), 100U);
+  EXPECT_EQ(ownerOfMade(*silica), 7U);
+  EXPECT_EQ(silica->classedBy()[trees.classes[0].by].name, "primaries");
+
+  const PopulationRequest spheres =
+      requestOfDeck("ethylene_abf2000_101.yaml", "soot: {pah: [A2]}\nstochastic: {repeats: 3, particles: 50}\n");
+  EXPECT_EQ(spheres.section, "stochastic");
+  EXPECT_EQ(spheres.repeats, 3U);
+  EXPECT_FALSE(spheres.hasStart);
+  const auto soot = spheres.make(5);
+  EXPECT_EQ(soot->material(), "soot");
+  EXPECT_EQ(ownerOfMade(*soot), 5U);
 }
 
 // Published: Kobata, Kusakabe, Morooka (1991), of 10 nm at 1500 K.
