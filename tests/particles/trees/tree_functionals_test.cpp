@@ -229,6 +229,13 @@ TEST(TreeRates, EventsOfTheSampleAreThoseOfTheGasByItsWeight) {
   const auto columns = sample.trees->columns();
   const std::vector<double> values = sample.trees->values(sample.gas(1e-5));
   ASSERT_EQ(columns.size(), values.size());
+  // A step that is taken back leaves no trace, not in what was counted from the beginning either.
+  const auto saved = sample.trees->save();
+  sample.trees->advance(sample.gas(1e-5), 1e-4);
+  static_cast<void>(sample.trees->takeExchange());
+  EXPECT_NE(sample.trees->values(sample.gas(1e-5)), values);
+  sample.trees->restore(*saved);
+  EXPECT_EQ(sample.trees->values(sample.gas(1e-5)), values);
   const auto value = [&](const std::string& name) {
     for (std::size_t c = 0; c < columns.size(); ++c)
       if (columns[c].name == "silica_" + name) return values[c];
