@@ -1,7 +1,8 @@
 // What a repeat of each Monte Carlo method costs for what it tells: time times variance of M0, M2, M6 and of the number
 // in the largest bin of size, over the square of the mean, in five cases; and what sections cost and err by.
 //
-//   population_pairs_bench [start of a case's name [numbers of particles, with commas [repeats of 500 particles]]]
+//   population_pairs_bench [start of a case's name [numbers of particles, with commas [repeats of 500 particles
+//                          [a method]]]]
 //
 // Times are of one core, CPU seconds, with what a repeat starts from. The largest bin holds what is above the volume
 // beyond which the reference, 300 sections, has one thousandth of the number.
@@ -70,8 +71,8 @@ std::vector<Case> cases() {
   return {{"nucleation burst", burst, {}, 5e-3, 3e18},
           {"free molecular", colliding(freeMolecular), equal, 5e-2, 0},
           {"continuum", colliding(continuum), large, 0.1, 0},
-          {"growth and oxidation", growing, {}, 5e-3, 3e18},
-          {"aggregates", aggregates, {}, 5e-3, 3e18, true}};
+          {"growth and oxidation", growing, {}, 2e-3, 3e18},
+          {"aggregates", aggregates, {}, 2e-3, 1e18, true}};
 }
 
 constexpr std::size_t quantities = 4;
@@ -95,7 +96,7 @@ std::vector<double> edgesOf(const Case& c) {
   return edges;
 }
 
-void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsOf500) {
+void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsOf500, const std::string& onlyMethod) {
   const std::vector<double> edges = edgesOf(c);
   double large = edges[edges.size() / 2];
   fmt::print("{}\n", c.name);
@@ -128,7 +129,7 @@ void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsO
       fmt::print("\n");
     }
   } else {
-    large = 2e5 * nanometre;
+    large = 200 * nanometre;
   }
   fmt::print("  {:>7} {:>7} {:>8} {:>10}", "N", "method", "repeats", "ms/repeat");
   for (const char* name : names) fmt::print(" {:>12} {:>8} {:>10}", fmt::format("{} mean", name), "sd %", "ms var");
@@ -136,6 +137,7 @@ void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsO
   using enum MonteCarloMethod;
   for (const std::size_t n : numbers) {
     for (const auto& [method, name] : {std::pair{pairs, "pairs"}, {sammc, "sammc"}, {swa, "swa"}, {dsmc, "dsmc"}}) {
+      if (!std::string(name).starts_with(onlyMethod)) continue;
       const auto repeats =
           std::max<std::uint64_t>(24, static_cast<std::uint64_t>(repeatsOf500 * 500 / static_cast<double>(n)));
       std::array<double, quantities> sum{}, squares{};
@@ -179,6 +181,6 @@ int main(int argc, char** argv) {
   std::stringstream list(argc > 2 ? argv[2] : "100,500,2000");
   for (std::string item; std::getline(list, item, ',');) numbers.push_back(std::stoul(item));
   for (const Case& c : cases())
-    if (c.name.starts_with(only)) run(c, numbers, argc > 3 ? std::stod(argv[3]) : 200);
+    if (c.name.starts_with(only)) run(c, numbers, argc > 3 ? std::stod(argv[3]) : 200, argc > 4 ? argv[4] : "");
   return 0;
 }

@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/modules.hpp"
 #include "core/random.hpp"
@@ -62,7 +63,8 @@ class PairSampling {
   static constexpr double roundOff = 1e-9;  // of a weight, below which what is left of it is a matter of rounding
 
   double probability_;
-  double highest_ = 0;  // K w of the pair with the highest, 1/s; zero: not known
+  double highest_ = 0;                                    // K w of the pair with the highest, 1/s; zero: not known
+  double heaviest_ = std::numeric_limits<double>::max();  // 1/m3, weight at the last candidates
   // Sums over the last events.
   double lost_ = 0, gained_ = 0, over_ = 0;  // 1/m3, m3, s
   std::uint64_t events_ = 0;
@@ -86,8 +88,13 @@ template <ParticleType Type>
 void PairSampling<Type>::advance(PairPopulation<Type>& population, double time, RandomStream& random,
                                  PopulationCounters& counters) {
   if (population.size() == 0 || !(time > 0)) return;
+  double heaviest = 0;
+  for (std::size_t k = 0; k < population.size(); ++k) heaviest = std::max(heaviest, population.weight(k));
+  // Weights that others have raised since the last candidates.
+  if (heaviest > heaviest_) highest_ *= heaviest / heaviest_;
+  heaviest_ = heaviest;
   withRate(population, [&](const auto& rate) {
-    if (highest_ == 0) probe(rate, population, random);
+    if (!(highest_ > 0)) probe(rate, population, random);
     if (highest_ > 0) draw(rate, population, time, random, counters);
   });
 }

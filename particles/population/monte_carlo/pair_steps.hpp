@@ -147,9 +147,15 @@ void PairProcess<Type>::nucleate(double from, double to) {
     nuclei_.push_back(k);
     there += row.weight;
   }
-  const double most = options_.nucleusWeight > 0 ? options_.nucleusWeight : gathered * number / capacity();
-  const double wanted = std::ceil((there + added) / most * (1 - 1e-12));
-  const double missing = std::min(wanted - static_cast<double>(nuclei_.size()), capacity());
+  const auto needed = [&](double most) {
+    return std::ceil((there + added) / most * (1 - 1e-12)) - static_cast<double>(nuclei_.size());
+  };
+  const double mean = number / capacity(), given = options_.nucleusWeight;
+  // With room, for no more than the mean.
+  const double room = mergedTo * capacity() - static_cast<double>(population_.size());
+  double missing = needed(given > 0 ? given : gathered * mean);
+  if (!(given > 0)) missing = std::max(missing, std::min(needed(mean), std::floor(room)));
+  missing = std::min(missing, capacity());
   counters_.nucleations += static_cast<std::uint64_t>(std::max(missing, 0.0));
   if (missing >= 1) {
     for (double k = 0; k < missing; ++k) population_.add(*nucleus_, added / missing);

@@ -89,6 +89,21 @@ TEST(Pairs, AreRightWithNucleation) {
   expectMoment(m, 2, 21 + 0.1 * (std::pow(21, 3) - 1) / 30);
 }
 
+// From nothing, where weights rise from step to step: M0 = sqrt(2 J/A) tanh(sqrt(J A/2) t), M2 = J t + A J^2 t^3 / 3.
+TEST(Pairs, AreRightFromNothing) {
+  PopulationModel model = colliding(constant, 0.1);
+  model.nucleation.emplace();
+  model.nucleation->rate = 10;
+  const double end = 0.6;
+  const auto m = momentsAt(end, model, {}, pairsOf(500), 200);
+  expectMoment(m, 0, std::sqrt(200) * std::tanh(std::sqrt(0.5) * end));
+  expectMoment(m, 2, 10 * end + 10 * std::pow(end, 3) / 3);
+  const auto solver = makeMonteCarlo(model, {}, pairsOf(500));
+  solver->advance(end);
+  EXPECT_LT(static_cast<double>(solver->counters().limited), 0.02 * static_cast<double>(solver->counters().fictitious));
+  EXPECT_GT(solver->particles(), 400u);
+}
+
 // Nuclei alone, from nothing, to the last bits.
 TEST(Pairs, NucleateWithoutNoise) {
   PopulationModel model;
