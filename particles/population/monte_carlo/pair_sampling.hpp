@@ -159,11 +159,11 @@ void PairSampling<Type>::probe(const Rate& rate, const PairPopulation<Type>& pop
     square += 2 * collisions * static_cast<double>(rows[i].volume) * static_cast<double>(rows[j].volume);
   }
   const double pairs = static_cast<double>(n) * static_cast<double>(n) / count;
-  over_ = 1;
-  lost_ = number * pairs;
-  gained_ = square * pairs;
+  // As if it were what an eighth of the number had shown.
+  over_ = number > 0 ? 0.125 * population.number() / (number * pairs) : 0;
+  lost_ = number * pairs * over_;
+  gained_ = square * pairs * over_;
   events_ = 0;
-  if (!(highest_ > 0)) over_ = 0;
 }
 
 template <ParticleType Type>
