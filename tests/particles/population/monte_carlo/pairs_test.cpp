@@ -107,6 +107,17 @@ TEST(PairMerging, MergesTheNearestAndKeepsNumberAndMass) {
   EXPECT_NEAR(population.volume(0), mass / number, 1e-13);
 }
 
+// What stands for little beside its neighbour goes before nearer ones of equal numbers.
+TEST(PairMerging, LooksAtWhatEachStandsFor) {
+  const auto kernel = *colliding(constant, 1).coagulation;
+  auto population = populationWith({{2, 100}, {1.1, 1}, {2.3, 1}, {1, 1}}, kernel);
+  PairMerging<Sphere> merging;
+  EXPECT_EQ(merging.mergeDownTo(3, 1000, population), 1u);
+  double smallest = 3;
+  population.forEach([&](const auto& entry) { smallest = std::min(smallest, entry.particle.volume); });
+  EXPECT_EQ(smallest, 1);
+}
+
 TEST(PairMerging, HalvesTheHeaviest) {
   const auto kernel = *colliding(constant, 1).coagulation;
   auto population = populationWith({{1, 8}, {2, 6}, {3, 1}}, kernel);
