@@ -74,6 +74,18 @@ class Operator {
   // this state alone. `rates` has the sizes of State::balance. For operators that change the state by means other than
   // transport.
   virtual void addRates(const State&, State::Balance& /*rates*/) {}
+  // Derivatives of what addRates() adds in the owned cells, a dense matrix a cell, one behind the other, column-major.
+  // They steer iterations towards a steady state, which does not depend on them: what is small may be left out.
+  struct Slopes {
+    // Rows: kg/m^3/s of each species, then W/m^3; columns: mass fractions at constant pressure, then the temperature.
+    std::span<double> gas;
+    // Of what is carried, per m^3 and s, by what is carried per m^3.
+    std::span<double> carried;
+  };
+  virtual void addSlopes(const State&, const Slopes&) {}
+  // Sets what transport needs to know of the operator's scalars in a state (State::carriedDiffusivity); advance() does
+  // so by itself. The halo is filled by who calls.
+  virtual void setDiffusivities(State&) {}
   // Saves or loads the data that the operator keeps between two steps, besides the state. With both, the next step is
   // the same to the last bit. Collective.
   virtual void saveOrLoad(StateArchive&) {}

@@ -45,6 +45,10 @@ class CarriedTransport {
   // start and mean.
   void presentFlux(const State& state, const Gas& gas, std::span<double> flux);
 
+  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the faces.
+  void diffusiveFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+                     std::span<double> flux) const;
+
   // Flux of the last step, per s, scalars a face, positive from low to high or outwards: all that crosses the boundary,
   // between cells the convective part.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }
@@ -64,9 +68,6 @@ class CarriedTransport {
   [[nodiscard]] bool hasDriftToWall(const FaceState& faces, int face) const;
   void solveChanges(const State& state, std::span<const double> inertia, std::span<const double> conductance,
                     std::span<double> change);
-  // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the faces.
-  void diffusiveFlux(const State& state, const FaceState& faces, std::span<double> conductance,
-                     std::span<double> flux) const;
 
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;

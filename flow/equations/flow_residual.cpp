@@ -51,6 +51,22 @@ const FlowResidual::Rates& FlowResidual::evaluate(const State& state) {
   return rates_;
 }
 
+const FlowResidual::Rates& FlowResidual::evaluateFlow(const State& state) {
+  const Mesh& m = context_.mesh;
+  faces_.prepare(state, state.Y);
+  std::ranges::fill(rates_.mass, 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    faces_.interpolate(state, face, state.massFlux[face], row_);
+    addFaceFlux(m, face, state.massFlux[face], 1.0, rates_.mass);
+  }
+  for (int c = 0; c < m.owned; ++c) {
+    rates_.made.ofSpecies(static_cast<std::size_t>(c), row_);
+    for (const double made : row_) rates_.mass[c] += m.volume[c] * made;
+  }
+  findForces(state);
+  return rates_;
+}
+
 void FlowResidual::addGas(const State& state) {
   const Mesh& m = context_.mesh;
   heatConduction_.presentFlux(state, conducted_);

@@ -44,9 +44,18 @@ class FlowResidual {
   // Collective. The state's halo is filled. NumericsError where the gas has no properties or rates.
   const Rates& evaluate(const State& state);
 
+  // Collective. The same of mass, mass fluxes and momenta alone, where a gas of about the last state has moved or
+  // changed: its properties, and all other rates, are those of the last state.
+  const Rates& evaluateFlow(const State& state);
+
   // Of the last state that was evaluated.
   [[nodiscard]] const Rates& rates() const { return rates_; }
   [[nodiscard]] const GasProperties& properties() const { return properties_; }
+  [[nodiscard]] const FaceState& faces() const { return faces_; }
+  [[nodiscard]] const SpeciesDiffusion& speciesDiffusion() const { return speciesDiffusion_; }
+  [[nodiscard]] const HeatConduction& heatConduction() const { return heatConduction_; }
+  [[nodiscard]] const CarriedTransport& carried() const { return carried_; }
+  [[nodiscard]] MomentumForces& forces() { return forces_; }
 
  private:
   void addGas(const State& state);

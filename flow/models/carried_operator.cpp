@@ -228,6 +228,39 @@ void CarriedOperator::addRates(const State& state, State::Balance& rates) {
   }
 }
 
+void CarriedOperator::addSlopes(const State& state, const Slopes& slopes) {
+  const std::vector<std::size_t>& species = model_.exchanged();
+  const auto W = context_.mechanism.molecularWeights();
+  const std::size_t columns = values_.size() + 1, width = static_cast<std::size_t>(state.species) + 1,
+                    all = state.scalars.size();
+  std::vector<double> J(values_.size() * columns);
+  for (int c = 0; c < context_.mesh.owned; ++c) {
+    ParticleGas gas = gasOfCell(context_, state, c, 0.0, species, concentrations_);
+    if (model_.idle(gas, densities(state, c))) continue;
+    gas = gasOfCell(context_, state, c, viscosityOf(state, c), species, concentrations_);
+    std::ranges::fill(J, 0.0);
+    model_.jacobian(gas, densities(state, c), {J, columns});
+    double* carried = &slopes.carried[at(c, all * all)];
+    for (std::size_t s = 0; s < scalars_; ++s)
+      for (std::size_t by = 0; by < scalars_; ++by) carried[(first_ + by) * all + first_ + s] += J[s * columns + by];
+    double* ofGas = &slopes.gas[at(c, width * width)];
+    for (std::size_t i = 0; i < species.size(); ++i)
+      for (std::size_t by = 0; by < species.size(); ++by)
+        ofGas[species[by] * width + species[i]] +=
+            W[species[i]] * J[(scalars_ + i) * columns + scalars_ + by] * state.density[c] / W[species[by]];
+  }
+}
+
+void CarriedOperator::setDiffusivities(State& state) {
+  for (int c = 0; c < context_.mesh.owned; ++c) {
+    const ParticleGas still = gasOfCell(context_, state, c, 0.0, model_.exchanged(), concentrations_);
+    if (model_.idle(still, densities(state, c)))
+      std::fill_n(&state.carriedDiffusivity[at(c, state.scalars.size()) + first_], scalars_, 0.0);
+    else
+      setDiffusivities(state, c, viscosityOf(state, c));
+  }
+}
+
 void CarriedOperator::saveOrLoad(StateArchive& archive) {
   if (archive.loading()) lastStep_ = 0.0;  // the rates are what endSweep() left
   work_.saveOrLoad(archive);

@@ -49,6 +49,8 @@ class CarriedOperator : public Operator {
   void advance(State& state, double time, double dt) override;
   void endSweep(State& state) override;
   void addRates(const State& state, State::Balance& rates) override;
+  void addSlopes(const State& state, const Slopes& slopes) override;
+  void setDiffusivities(State& state) override;
   void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;
 

@@ -33,6 +33,15 @@ void RadiationOperator::addRates(const State& state, State::Balance& rates) {
   for (std::size_t c = 0; c < loss.size(); ++c) rates.enthalpy[c] -= loss[c];
 }
 
+// As the fourth power of the temperature.
+void RadiationOperator::addSlopes(const State& state, const Slopes& slopes) {
+  std::vector<double> loss(loss_.size());
+  evaluate(state, loss);
+  const std::size_t width = X_.size() + 1;
+  for (std::size_t c = 0; c < loss.size(); ++c)
+    slopes.gas[(c + 1) * width * width - 1] -= 4.0 * loss[c] / state.temperature[c];
+}
+
 // The heat is taken by transport.
 void RadiationOperator::advance(State& state, double, double) {
   evaluate(state, loss_);

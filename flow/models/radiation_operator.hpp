@@ -24,6 +24,7 @@ class RadiationOperator : public Operator {
   [[nodiscard]] const char* name() const override { return "radiation"; }
   void advance(State& state, double time, double dt) override;
   void addRates(const State& state, State::Balance& rates) override;
+  void addSlopes(const State& state, const Slopes& slopes) override;
   void endSweep(State& state) override;
   void endStep(State& state) override;
 

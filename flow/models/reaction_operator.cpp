@@ -278,6 +278,28 @@ void ReactionOperator::addRates(const State& state, State::Balance& rates) {
   });
 }
 
+void ReactionOperator::addSlopes(const State& state, const Slopes& slopes) {
+  const auto n = static_cast<std::size_t>(state.species), width = n + 1;
+  ReactorSystem system(context_.mechanism, nullptr, options_.reactor.leastFraction());
+  system.setConditions(state.thermodynamicPressure, {});
+  const auto weights = context_.mechanism.molecularWeights();
+  std::vector<double> y(width), rate(width), J(width * width);
+  inEachCell(context_.mesh, [&](int c) {
+    const auto cell = static_cast<std::size_t>(c);
+    std::copy_n(&state.Y[cell * n], n, y.begin());
+    y[n] = state.temperature[cell];
+    if (!system.jacobian(y.data(), rate.data(), J.data(), width))
+      throw NumericsError("the reactions have no rates: " + system.refusal());
+    // Per kg there, and per m^3 here: the density changes as well.
+    const double rho = state.density[cell], W = context_.thermo.meanMolecularWeight({&state.Y[cell * n], n});
+    double* to = &slopes.gas[cell * width * width];
+    for (std::size_t j = 0; j < width; ++j) {
+      const double lighter = j < n ? W / weights[j] : 1.0 / y[n];
+      for (std::size_t k = 0; k < n; ++k) to[j * width + k] += rho * (J[j * width + k] - rate[k] * lighter);
+    }
+  });
+}
+
 void ReactionOperator::endStep(State& state) {
   if (step_ > 0.0 && !state.start.Y.empty())  // else the state is a new one
     for (std::size_t cell = 0; cell < isLimited_.size(); ++cell) {

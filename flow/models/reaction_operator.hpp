@@ -57,6 +57,7 @@ class ReactionOperator : public Operator {
   void advance(State& state, double time, double dt) override;
   void endStep(State& state) override;
   void addRates(const State& state, State::Balance& rates) override;
+  void addSlopes(const State& state, const Slopes& slopes) override;
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] const char* name() const override { return "chemistry"; }
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;

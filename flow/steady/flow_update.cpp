@@ -1,0 +1,128 @@
+#include "flow/steady/flow_update.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/discretisation/upwind.hpp"
+#include "flow/discretisation/velocity_gradient.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+constexpr double flowReduction = 0.03;
+constexpr int mostFlowIterations = 60;
+
+}  // namespace
+
+FlowUpdate::FlowUpdate(const FlowContext& context, const State& state, FlowResidual& residual)
+    : context_(context),
+      residual_(residual),
+      d_(static_cast<std::size_t>(state.dimension)),
+      fields_(d_ + (state.swirls ? 1 : 0)),
+      system_(context.mesh, context.halo, fields_),
+      projection_(context, residual.forces().pressureKnown()) {
+  const auto cells = static_cast<std::size_t>(context.mesh.cells), owned = static_cast<std::size_t>(context.mesh.owned);
+  right_.resize(owned * fields_);
+  change_.resize(cells * fields_);
+  response_.resize(cells);
+  share_.resize(cells);
+  faceResponse_.resize(static_cast<std::size_t>(context.mesh.faces));
+  flux_.resize(faceResponse_.size());
+  pressure_.resize(cells);
+  divergence_.resize(owned);
+}
+
+void FlowUpdate::assemble(const State& state, std::span<const double> inertia) {
+  const Mesh& m = context_.mesh;
+  const FlowResidual::Rates& rates = residual_.rates();
+  MomentumForces& forces = residual_.forces();
+  system_.clear();
+  for (int c = 0; c < m.owned; ++c) {
+    const auto cell = static_cast<std::size_t>(c);
+    double* block = system_.block(c);
+    for (std::size_t i = 0; i < d_; ++i) {
+      right_[cell * fields_ + i] = rates.momentum[cell * d_ + i];
+      block[i * (fields_ + 1)] += forces.diagonal()[cell * d_ + i];
+    }
+    if (state.swirls) {
+      right_[cell * fields_ + d_] = rates.angularMomentum[cell] / m.centre[c][0];
+      block[d_ * (fields_ + 1)] += forces.diagonal()[cell * d_ + 1];
+    }
+    system_.addInertia(c, inertia[c]);
+  }
+  for (int face = 0; face < m.faces; ++face) {
+    const bool isInside = m.high[face] >= 0;
+    // Where nothing is given beyond a boundary, velocities there are the cell's.
+    if (!isInside && givenVelocity(context_.boundaryOf(face)) == GivenVelocity::Nothing) continue;
+    for (std::size_t i = 0; i < fields_; ++i) {
+      const std::size_t component = std::min(i, d_ - 1);
+      const double g = isInside ? forces.conductance()[static_cast<std::size_t>(face) * d_ + component] : 0.0;
+      system_.connect(face, i, g, state.massFlux[face]);
+    }
+  }
+}
+
+void FlowUpdate::move(State& state, std::span<const double> inertia) {
+  const Mesh& m = context_.mesh;
+  const std::span<const double> relaxation = residual_.forces().relaxation();
+  for (int c = 0; c < m.owned; ++c) {
+    const double step = state.density[c] * m.volume[c] / inertia[c];
+    response_[c] = step;
+    share_[c] = step * relaxation[c] / (1.0 + step * relaxation[c]);
+  }
+  std::vector<FieldView> known{{response_, 1}, {share_, 1}};
+  context_.halo.update(known);
+  const FlowResidual::Rates& rates = residual_.rates();
+  for (int face = 0; face < m.faces; ++face) {
+    const auto low = static_cast<std::size_t>(m.low[face]);
+    const bool isInside = m.high[face] >= 0;
+    const std::size_t high = isInside ? static_cast<std::size_t>(m.high[face]) : low;
+    const double w = isInside ? m.lowWeight[face] : 1.0;
+    const bool isOpen = isInside || context_.boundaryOf(face).kind == BoundaryKind::Outlet;
+    double rises = 0.0;
+    if (isOpen)
+      for (std::size_t i = 0; i < d_; ++i)
+        rises += m.normal[face][i] * (w * change_[low * fields_ + i] + (1.0 - w) * change_[high * fields_ + i]);
+    const double share = isInside ? w * share_[low] + (1.0 - w) * share_[high] : 1.0;
+    const double flow = state.massFlux[face] + share * rates.massFlux[face];
+    flux_[face] = m.area[face] > 0.0 ? flow / m.area[face] + residual_.faces().density[face] * rises : 0.0;
+    faceResponse_[face] = w * response_[low] + (1.0 - w) * response_[high];
+  }
+  for (int c = 0; c < m.cells; ++c) {
+    const auto cell = static_cast<std::size_t>(c);
+    for (std::size_t i = 0; i < d_; ++i) state.velocity[cell * d_ + i] += change_[cell * fields_ + i];
+    if (state.swirls) state.swirl[cell] += change_[cell * fields_ + d_];
+  }
+}
+
+FlowUpdate::Result FlowUpdate::advance(State& state, std::span<const double> inertia) {
+  const Mesh& m = context_.mesh;
+  Result result;
+  assemble(state, inertia);
+  result.iterations = system_.solve(right_, change_, flowReduction, mostFlowIterations).iterations;
+  // What is made of the gas stays in the cell's balance of mass.
+  const FlowResidual::Rates& rates = residual_.rates();
+  std::ranges::copy(rates.mass, divergence_.begin());
+  for (int face = 0; face < m.faces; ++face) {
+    const double flux = state.massFlux[face];
+    if (m.low[face] < m.owned) divergence_[m.low[face]] += flux;
+    if (m.high[face] >= 0 && m.high[face] < m.owned) divergence_[m.high[face]] -= flux;
+  }
+  for (int c = 0; c < m.owned; ++c) divergence_[c] /= m.volume[c];
+  move(state, inertia);
+
+  std::ranges::fill(pressure_, 0.0);
+  result.pressureIterations = projection_.solve(1.0, faceResponse_, divergence_, flux_, pressure_).iterations;
+  const std::span<const double> slope = residual_.forces().gradientOfChange(pressure_);
+  for (int c = 0; c < m.owned; ++c)
+    for (std::size_t i = 0; i < d_; ++i) {
+      const std::size_t at = static_cast<std::size_t>(c) * d_ + i;
+      state.velocity[at] -= response_[c] / state.density[c] * slope[at];
+    }
+  for (int c = 0; c < m.cells; ++c) state.pressure[c] += pressure_[c];
+  for (int face = 0; face < m.faces; ++face) state.massFlux[face] = flux_[face] * m.area[face];
+  state.updateHalo(context_.halo);
+  return result;
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,48 @@
+// The implicit change of velocities, pressure and mass fluxes in an iteration towards the steady state
+// (docs/theory/flow.md, "The steady state"): momentum by its forces, viscosity implicit and convection upwind of first
+// order; then the pressure that takes what is left of the mass away.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "flow/equations/flow_residual.hpp"
+#include "flow/equations/projection.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/state.hpp"
+#include "flow/steady/block_system.hpp"
+
+namespace lampblack::flow {
+
+class FlowUpdate {
+ public:
+  FlowUpdate(const FlowContext& context, const State& state, FlowResidual& residual);  // collective
+
+  struct Result {
+    int iterations = 0, pressureIterations = 0;  // of the linear solvers
+  };
+  // Collective. The residual has been evaluated of the state, its flow alone at least; `inertia` (kg/s, owned cells):
+  // mass over the cell's pseudo-time.
+  Result advance(State& state, std::span<const double> inertia);
+
+ private:
+  void assemble(const State& state, std::span<const double> inertia);
+  // Velocities and mass fluxes under the pressure there is.
+  void move(State& state, std::span<const double> inertia);
+
+  const FlowContext& context_;
+  FlowResidual& residual_;
+  std::size_t d_, fields_;
+  BlockSystem system_;
+  Projection projection_;
+  std::vector<double> right_, change_;
+  std::vector<double> response_;      // s, a cell: momentum per volume that a slope of the pressure of one brings
+  std::vector<double> share_;         // a cell: of what a mass flux has not settled, that an iteration takes up
+  std::vector<double> faceResponse_;  // s
+  std::vector<double> flux_;          // kg/m2/s, a face
+  std::vector<double> pressure_;      // Pa, change
+  std::vector<double> divergence_;    // kg/m3/s
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,148 @@
+#include "flow/steady/gas_update.hpp"
+
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "flow/cell_errors.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+// K, the unit of the temperature in the linear system, so that all of its fields are of the order of one.
+constexpr double kelvins = 1000.0;
+// What an iteration changes in a cell at most.
+constexpr double mostRise = 100.0;      // K
+constexpr double mostOfFraction = 0.1;  // mass fraction of any species
+// No iteration leaves less of a species than this, or than there was.
+constexpr double leastFraction = -1e-6;
+constexpr double gasReduction = 0.1;  // of the linear system's residual
+constexpr int mostGasIterations = 60;
+
+}  // namespace
+
+GasUpdate::GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators)
+    : context_(context),
+      operators_(std::move(operators)),
+      n_(static_cast<std::size_t>(state.species)),
+      system_(context.mesh, context.halo, n_ + 1),
+      made_(n_),
+      enthalpies_(n_),
+      capacities_(n_) {
+  const auto owned = static_cast<std::size_t>(context.mesh.owned), width = n_ + 1;
+  slopes_.resize(owned * width * width);
+  carriedSlopes_.resize(owned * state.scalars.size() * state.scalars.size());
+  right_.resize(owned * width);
+  shares_.resize(owned);
+  change_.resize(static_cast<std::size_t>(context.mesh.cells) * width);
+}
+
+// What is left of the equations of the species, and of that of the temperature,
+//   rho cp DT/Dt = (enthalpy's) - sum over the species of h_k (theirs),
+// divided by cp; and their derivatives by all that acts in the cell.
+void GasUpdate::assembleBlock(const State& state, const FlowResidual& residual, int cell) {
+  const auto c = static_cast<std::size_t>(cell);
+  const std::size_t width = n_ + 1;
+  const FlowResidual::Rates& rates = residual.rates();
+  const double T = state.temperature[c], V = context_.mesh.volume[c];
+  context_.thermo.speciesEnthalpies(T, enthalpies_);
+  context_.thermo.speciesCp(T, capacities_);
+  const double capacity = residual.properties().heatCapacity[c];
+  double* right = &right_[c * width];
+  double heat = rates.enthalpy[c] - state.enthalpy[c] * rates.mass[c];
+  for (std::size_t k = 0; k < n_; ++k) {
+    right[k] = rates.species[c * n_ + k] - state.Y[c * n_ + k] * rates.mass[c];
+    heat -= enthalpies_[k] * right[k];
+  }
+  right[n_] = heat / (capacity * kelvins);
+
+  rates.made.ofSpecies(c, made_);
+  double* block = system_.block(cell);
+  double* slopes = &slopes_[c * width * width];
+  for (std::size_t j = 0; j < width; ++j) {
+    double* column = &slopes[j * width];
+    double ofHeat = column[n_];
+    for (std::size_t k = 0; k < n_; ++k) ofHeat -= enthalpies_[k] * column[k];
+    if (j == n_)
+      for (std::size_t k = 0; k < n_; ++k) ofHeat -= capacities_[k] * made_[k];
+    const double unit = j == n_ ? kelvins : 1.0;
+    for (std::size_t k = 0; k < n_; ++k) block[j * width + k] -= V * unit * column[k];
+    block[j * width + n_] -= V * unit * ofHeat / (capacity * kelvins);
+  }
+}
+
+void GasUpdate::assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia) {
+  const Mesh& m = context_.mesh;
+  std::ranges::fill(slopes_, 0.0);
+  std::ranges::fill(carriedSlopes_, 0.0);
+  for (Operator* op : operators_) op->addSlopes(state, {slopes_, carriedSlopes_});
+  system_.clear();
+  for (int c = 0; c < m.owned; ++c) {
+    assembleBlock(state, residual, c);
+    system_.addInertia(c, inertia[c]);
+  }
+  std::vector<int> all(n_);
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<double> g(n_);
+  const std::vector<double>& capacity = residual.properties().heatCapacity;
+  for (int face = 0; face < m.faces; ++face) {
+    residual.speciesDiffusion().conductance(face, all, g.data());
+    const double flow = state.massFlux[face];
+    for (std::size_t k = 0; k < n_; ++k) system_.connect(face, k, g[k], flow);
+    const double w = m.high[face] >= 0 ? m.lowWeight[face] : 1.0;
+    const double cp = w * capacity[m.low[face]] + (w < 1.0 ? (1.0 - w) * capacity[m.high[face]] : 0.0);
+    system_.connect(face, n_, residual.heatConduction().conductance(face) / cp, flow);
+  }
+}
+
+double GasUpdate::take(State& state, int cell, double& largestRise) {
+  const auto c = static_cast<std::size_t>(cell);
+  const double* change = &change_[c * (n_ + 1)];
+  double* Y = &state.Y[c * n_];
+  double most = 0.0;
+  for (std::size_t k = 0; k < n_; ++k) most = std::max(most, std::abs(change[k]));
+  const double rise = kelvins * change[n_];
+  largestRise = std::max(largestRise, std::abs(rise));
+  double share = 1.0;
+  if (std::abs(rise) > mostRise) share = mostRise / std::abs(rise);
+  if (share * most > mostOfFraction) share = mostOfFraction / most;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    const double least = std::min(Y[k], leastFraction);
+    Y[k] = std::max(Y[k] + share * change[k], least);
+    sum += Y[k];
+  }
+  for (std::size_t k = 0; k < n_; ++k) Y[k] /= sum;
+  state.temperature[c] += share * rise;
+  return share;
+}
+
+GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
+  const Mesh& m = context_.mesh;
+  assemble(state, residual, inertia);
+  Result result;
+  result.iterations = system_.solve(right_, change_, gasReduction, mostGasIterations).iterations;
+  const std::size_t scalars = state.scalars.size();
+  inEachCell(m, [&](int cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    shares_[c] = take(state, cell, result.largestRise);
+    if (shares_[c] < 1.0) ++result.limited;
+    const std::span<const double> Y{&state.Y[c * n_], n_};
+    const double before = state.density[c];
+    if (!(state.temperature[c] > Thermo::minTemperature && state.temperature[c] < Thermo::maxTemperature))
+      throw NumericsError(fmt::format("an iteration towards the steady state leads to {:.6g} K", state.temperature[c]));
+    state.density[c] = context_.thermo.density(state.temperature[c], state.thermodynamicPressure, Y);
+    state.enthalpy[c] = context_.thermo.enthalpyMass(state.temperature[c], Y);
+    for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
+  });
+  MPI_Allreduce(MPI_IN_PLACE, &result.largestRise, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, &result.limited, 1, MPI_INT64_T, MPI_SUM, m.comm);
+  state.updateHalo(context_.halo);
+  return result;
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,73 @@
+// Iterations that bring a flow to its steady state, where nothing is left of its equations (FlowResidual): implicit in
+// a pseudo-time of every cell's own, which grows as the residual falls (switched evolution relaxation, Mulder and van
+// Leer 1985; Kelley and Keyes 1998). In each iteration species and temperature change together (GasUpdate), then what
+// is carried (CarriedUpdate), then velocities and pressure for the new density (FlowUpdate). docs/theory/flow.md, "The
+// steady state".
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "core/state_archive.hpp"
+#include "flow/equations/flow_residual.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/operator.hpp"
+#include "flow/state.hpp"
+#include "flow/steady/flow_update.hpp"
+#include "flow/steady/gas_update.hpp"
+
+namespace lampblack::flow {
+
+class SteadyIteration {
+ public:
+  struct Options {
+    VelocityScheme scheme = VelocityScheme::Limited;
+    // Pseudo-time of a cell over the time in which the gas in it is renewed.
+    double firstCourant = 2.0, mostCourant = 1e4;
+    double mostFlowCourant = 5.0;  // of velocities and pressure
+  };
+
+  // Collective. `operators`: whose rates act in the cells; they have to live as long. The state is evaluated.
+  // NumericsError where the gas has no properties or rates.
+  SteadyIteration(const FlowContext& context, const State& state, Options options, std::vector<Operator*> operators);
+
+  struct Outcome {
+    bool taken = false;
+    double courant = 0.0;  // that was tried
+    double measure = 0.0;  // of what is left of all equations, of the state as it is now
+    std::string why;       // it was not taken
+    int gasIterations = 0, flowIterations = 0, pressureIterations = 0;  // of the linear solvers
+    double largestRise = 0.0;                                           // K, that the linear system asked for
+    std::int64_t limited = 0;                                           // cells where less than that was taken
+  };
+  // Collective. One iteration; leaves the state as it was where it fails, and the next one tries less.
+  Outcome iterate(State& state);
+
+  // Of the state as it is now.
+  [[nodiscard]] const FlowResidual& residual() const { return residual_; }
+
+  // What is kept from one iteration to the next; the state has to be loaded before. Collective.
+  void saveOrLoad(const State& state, StateArchive& archive);
+
+ private:
+  Outcome attempt(State& state);
+  void setInertia(const State& state);
+  // Of the state that was evaluated: what is left of all equations over what goes through the cells.
+  [[nodiscard]] double measure(const State& state) const;
+
+  const FlowContext& context_;
+  Options options_;
+  std::vector<Operator*> operators_;
+  FlowResidual residual_;
+  GasUpdate gas_;
+  FlowUpdate flow_;
+  double courant_;
+  double measure_ = 0.0;
+  std::vector<double> inertia_, flowInertia_;  // kg/s, owned cells
+  std::vector<double> haste_;                  // owned cells: of the pseudo-time that others have
+  std::optional<State> before_;
+};
+
+}  // namespace lampblack::flow
