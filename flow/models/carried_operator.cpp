@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "flow/cell_errors.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -234,9 +235,9 @@ void CarriedOperator::addSlopes(const State& state, const Slopes& slopes) {
   const std::size_t columns = values_.size() + 1, width = static_cast<std::size_t>(state.species) + 1,
                     all = state.scalars.size();
   std::vector<double> J(values_.size() * columns);
-  for (int c = 0; c < context_.mesh.owned; ++c) {
+  inEachCell(context_.mesh, [&](int c) {
     ParticleGas gas = gasOfCell(context_, state, c, 0.0, species, concentrations_);
-    if (model_.idle(gas, densities(state, c))) continue;
+    if (model_.idle(gas, densities(state, c))) return;
     gas = gasOfCell(context_, state, c, viscosityOf(state, c), species, concentrations_);
     std::ranges::fill(J, 0.0);
     model_.jacobian(gas, densities(state, c), {J, columns});
@@ -248,17 +249,17 @@ void CarriedOperator::addSlopes(const State& state, const Slopes& slopes) {
       for (std::size_t by = 0; by < species.size(); ++by)
         ofGas[species[by] * width + species[i]] +=
             W[species[i]] * J[(scalars_ + i) * columns + scalars_ + by] * state.density[c] / W[species[by]];
-  }
+  });
 }
 
 void CarriedOperator::setDiffusivities(State& state) {
-  for (int c = 0; c < context_.mesh.owned; ++c) {
+  inEachCell(context_.mesh, [&](int c) {
     const ParticleGas still = gasOfCell(context_, state, c, 0.0, model_.exchanged(), concentrations_);
     if (model_.idle(still, densities(state, c)))
       std::fill_n(&state.carriedDiffusivity[at(c, state.scalars.size()) + first_], scalars_, 0.0);
     else
       setDiffusivities(state, c, viscosityOf(state, c));
-  }
+  });
 }
 
 void CarriedOperator::saveOrLoad(StateArchive& archive) {

@@ -83,10 +83,15 @@ void FlowUpdate::move(State& state, std::span<const double> inertia) {
     if (isOpen)
       for (std::size_t i = 0; i < d_; ++i)
         rises += m.normal[face][i] * (w * change_[low * fields_ + i] + (1.0 - w) * change_[high * fields_ + i]);
+    const double density = residual_.faces().density[face];
+    // Gas that is drawn in through an outlet lowers the pressure there, by its velocity for each change of its flow.
+    double holds = 1.0;
+    if (!isInside && isOpen && state.massFlux[face] < 0.0)
+      holds += response_[low] / m.distance[face] * -state.massFlux[face] / (density * m.area[face]);
     const double share = isInside ? w * share_[low] + (1.0 - w) * share_[high] : 1.0;
-    const double flow = state.massFlux[face] + share * rates.massFlux[face];
-    flux_[face] = m.area[face] > 0.0 ? flow / m.area[face] + residual_.faces().density[face] * rises : 0.0;
-    faceResponse_[face] = w * response_[low] + (1.0 - w) * response_[high];
+    const double rise = (share * rates.massFlux[face] + density * m.area[face] * rises) / holds;
+    flux_[face] = m.area[face] > 0.0 ? (state.massFlux[face] + rise) / m.area[face] : 0.0;
+    faceResponse_[face] = (w * response_[low] + (1.0 - w) * response_[high]) / holds;
   }
   for (int c = 0; c < m.cells; ++c) {
     const auto cell = static_cast<std::size_t>(c);

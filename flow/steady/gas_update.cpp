@@ -20,10 +20,17 @@ constexpr double mostRise = 100.0;      // K
 constexpr double mostOfFraction = 0.1;  // mass fraction of any species
 // No iteration leaves less of a species than this, or than there was.
 constexpr double leastFraction = -1e-6;
+// The same of a species that reacts faster than it is moved: its rates may not tell one amount below zero from another.
+constexpr double leastOfFast = -1e-12;
 constexpr double gasReduction = 0.1;  // of the linear system's residual
 constexpr int mostGasIterations = 60;
 
 }  // namespace
+
+void checkTemperature(double temperature) {
+  if (!(temperature > Thermo::minTemperature && temperature < Thermo::maxTemperature))
+    throw NumericsError(fmt::format("an iteration towards the steady state leads to {:.6g} K", temperature));
+}
 
 GasUpdate::GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators)
     : context_(context),
@@ -110,10 +117,15 @@ double GasUpdate::take(State& state, int cell, double& largestRise) {
   double share = 1.0;
   if (std::abs(rise) > mostRise) share = mostRise / std::abs(rise);
   if (share * most > mostOfFraction) share = mostOfFraction / most;
+  const std::size_t width = n_ + 1;
+  const double V = context_.mesh.volume[c];
+  const double *slopes = &slopes_[c * width * width], *block = system_.block(cell);
   double sum = 0.0;
   for (std::size_t k = 0; k < n_; ++k) {
-    const double least = std::min(Y[k], leastFraction);
-    Y[k] = std::max(Y[k] + share * change[k], least);
+    const double reacts = -V * slopes[k * (width + 1)], moves = block[k * (width + 1)] - reacts;
+    const bool isFast = reacts > moves;
+    const double least = isFast ? leastOfFast : std::min(Y[k], leastFraction);
+    Y[k] = std::max(std::max(Y[k], isFast ? leastOfFast : Y[k]) + share * change[k], least);
     sum += Y[k];
   }
   for (std::size_t k = 0; k < n_; ++k) Y[k] /= sum;
@@ -133,8 +145,7 @@ GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual,
     if (shares_[c] < 1.0) ++result.limited;
     const std::span<const double> Y{&state.Y[c * n_], n_};
     const double before = state.density[c];
-    if (!(state.temperature[c] > Thermo::minTemperature && state.temperature[c] < Thermo::maxTemperature))
-      throw NumericsError(fmt::format("an iteration towards the steady state leads to {:.6g} K", state.temperature[c]));
+    checkTemperature(state.temperature[c]);
     state.density[c] = context_.thermo.density(state.temperature[c], state.thermodynamicPressure, Y);
     state.enthalpy[c] = context_.thermo.enthalpyMass(state.temperature[c], Y);
     for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;

@@ -16,6 +16,9 @@
 
 namespace lampblack::flow {
 
+// NumericsError for a temperature (K) that no gas has data for.
+void checkTemperature(double temperature);
+
 class GasUpdate {
  public:
   GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators);  // collective

@@ -6,17 +6,23 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "flow/cell_errors.hpp"
 
 namespace lampblack::flow {
 namespace {
 
 constexpr double mostGrowth = 1.5;   // of the Courant number, from one iteration to the next
 constexpr double leastGrowth = 0.5;  // the same
-// Growth of what is left, in an iteration that is taken: more, and the iterations run away. What the first ones take of
-// the mass of a flow that is not steady is left of its momentum.
-constexpr double tolerated = 100.0;
+// Growth of what is left, in an iteration that is taken: more, and the iterations run away. What the first takes of the
+// mass of a flow that is not steady is left of its momentum; where an iteration has failed, what the flow has to answer
+// to is the same in the next.
+constexpr double toleratedFirst = 100.0, tolerated = 4.0;
+constexpr double forgets = 2.0;  // growth with which the earlier iterations are of no use
+// Velocities and pressure, which cost little beside a gas of many species, are changed so many times in an iteration.
+constexpr int flowPasses = 3;
+constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
 constexpr double afterFailure = 0.25;
-constexpr double leastCourant = 1e-3;
+constexpr double leastCourant = 1e-2;
 // A cell whose change has to be limited goes slower than others in the next iteration, by the share that was taken, and
 // catches up when it has not to be.
 constexpr double mostSlowed = 0.25, catchesUp = 1.5, leastHaste = 1e-4;
@@ -31,9 +37,11 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       residual_(context, state, options.scheme, operators_),
       gas_(context, state, operators_),
       flow_(context, state, residual_),
+      mixing_(context.mesh.comm, acceleratedDepth),
       courant_(options.firstCourant),
       inertia_(static_cast<std::size_t>(context.mesh.owned)),
       haste_(inertia_.size(), 1.0) {
+  if (!state.scalars.empty()) carried_.emplace(context, state, operators_);
   residual_.evaluate(state);
   measure_ = measure(state);
 }
@@ -60,7 +68,28 @@ void SteadyIteration::setInertia(const State& state) {
   }
   flowInertia_ = inertia_;
   for (std::size_t c = 0; c < inertia_.size(); ++c) inertia_[c] /= courant_ * haste_[c];
-  for (double& value : flowInertia_) value /= std::min(courant_, options_.mostFlowCourant);
+  for (double& value : flowInertia_) value /= options_.flowCourant;
+}
+
+double SteadyIteration::ofCarried(const State& state, double through) const {
+  const FlowResidual::Rates& rates = residual_.rates();
+  const std::size_t n = state.scalars.size();
+  std::vector<double> sums(2 * n, 0.0), most(n, 0.0);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
+    for (std::size_t s = 0; s < n; ++s) {
+      const std::size_t i = c * n + s;
+      const double perMass = state.carried[i] / state.density[c];
+      if (!state.scalars[s].isTransported) continue;
+      sums[s] += std::abs(rates.carried[i] - perMass * rates.mass[c]);
+      sums[n + s] += context_.mesh.volume[c] * std::max(rates.made.carried[i], 0.0);
+      most[s] = std::max(most[s], std::abs(perMass));
+    }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(2 * n), MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(n), MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+  double sum = 0.0;
+  for (std::size_t s = 0; s < n; ++s)
+    if (const double size = through * most[s] + sums[n + s]; size > 0.0) sum += sums[s] / size;
+  return n > 0 ? sum / static_cast<double>(n) : 0.0;
 }
 
 double SteadyIteration::measure(const State& state) const {
@@ -98,9 +127,93 @@ double SteadyIteration::measure(const State& state) const {
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), Equations, MPI_DOUBLE, MPI_SUM, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, ends.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
   const double through = std::max(sums[Through], 1e-300);
-  return (sums[Mass] + sums[Fluxes] + sums[Momentum] / std::max(ends[0], 1e-300) +
-          sums[Heat] / std::max(ends[1] + ends[2], 1e-3 * ends[1]) + sums[Species]) /
-         through;
+  return ofCarried(state, through) + (sums[Mass] + sums[Fluxes] + sums[Momentum] / std::max(ends[0], 1e-300) +
+                                      sums[Heat] / std::max(ends[1] + ends[2], 1e-3 * ends[1]) + sums[Species]) /
+                                         through;
+}
+
+std::vector<double> SteadyIteration::unknownsOf(const State& state) const {
+  std::vector<double> all;
+  for (const std::vector<double>* field :
+       {&state.Y, &state.temperature, &state.velocity, &state.swirl, &state.pressure, &state.massFlux})
+    all.insert(all.end(), field->begin(), field->end());
+  const std::size_t n = state.scalars.size();
+  for (std::size_t i = 0; i < state.carried.size(); ++i) all.push_back(state.carried[i] / state.density[i / n]);
+  return all;
+}
+
+// Over the squares of the fields' ranges, a cell as its volume.
+std::vector<double> SteadyIteration::weights(const State& state) const {
+  const Mesh& m = context_.mesh;
+  std::vector<double> all;
+  const auto add = [&](std::span<const double> values, std::size_t components, bool isEach) {
+    if (values.empty()) return;
+    std::vector<double> ends(2 * components, -1e300);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(m.owned) * components; ++i) {
+      const std::size_t k = isEach ? i % components : 0;
+      ends[2 * k] = std::max(ends[2 * k], values[i]);
+      ends[2 * k + 1] = std::max(ends[2 * k + 1], -values[i]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, ends.data(), static_cast<int>(ends.size()), MPI_DOUBLE, MPI_MAX, m.comm);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const std::size_t cell = i / components, k = isEach ? i % components : 0;
+      const double range = ends[2 * k] + ends[2 * k + 1];
+      all.push_back(cell < static_cast<std::size_t>(m.owned) && range > 0.0 ? m.volume[cell] / (range * range) : 0.0);
+    }
+  };
+  const auto n = static_cast<std::size_t>(state.species), d = static_cast<std::size_t>(state.dimension);
+  add(state.Y, n, false);
+  add(state.temperature, 1, false);
+  add(state.velocity, d, false);
+  add(state.swirl, 1, false);
+  add(state.pressure, 1, false);
+  all.insert(all.end(), state.massFlux.size(), 0.0);  // follow from velocities and pressure
+  std::vector<double> perMass(state.carried);
+  const std::size_t scalars = state.scalars.size();
+  for (std::size_t i = 0; i < perMass.size(); ++i) perMass[i] /= state.density[i / scalars];
+  add(perMass, scalars, true);
+  return all;
+}
+
+double SteadyIteration::massOf(const State& state) const {
+  double mass = 0.0;
+  for (int c = 0; c < context_.mesh.owned; ++c) mass += context_.mesh.volume[c] * state.density[c];
+  MPI_Allreduce(MPI_IN_PLACE, &mass, 1, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  return mass;
+}
+
+// In a closed vessel by the thermodynamic pressure.
+void SteadyIteration::keepMass(State& state, double mass) const {
+  if (!context_.isClosed()) return;
+  const double ratio = mass / massOf(state);
+  state.thermodynamicPressure *= ratio;
+  for (double& density : state.density) density *= ratio;
+  for (double& carried : state.carried) carried *= ratio;
+}
+
+void SteadyIteration::accelerate(State& state) {
+  const Mesh& m = context_.mesh;
+  std::vector<double> found = unknownsOf(state);
+  mixing_.mix(unknownsOf(*before_), found, weights(state));
+  auto from = found.cbegin();
+  for (std::vector<double>* field :
+       {&state.Y, &state.temperature, &state.velocity, &state.swirl, &state.pressure, &state.massFlux}) {
+    std::copy_n(from, field->size(), field->begin());
+    from += static_cast<std::ptrdiff_t>(field->size());
+  }
+  const auto n = static_cast<std::size_t>(state.species);
+  const std::size_t scalars = state.scalars.size();
+  inEachCell(m, [&](int cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    const std::span<const double> Y{&state.Y[c * n], n};
+    checkTemperature(state.temperature[c]);
+    state.density[c] = context_.thermo.density(state.temperature[c], state.thermodynamicPressure, Y);
+    state.enthalpy[c] = context_.thermo.enthalpyMass(state.temperature[c], Y);
+    for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] = *from++ * state.density[c];
+  });
+  keepMass(state, massOf(*before_));
+  for (Operator* op : operators_) op->setDiffusivities(state);
+  state.updateHalo(context_.halo);
 }
 
 SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
@@ -110,6 +223,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
   try {
     setInertia(state);
     const GasUpdate::Result gas = gas_.advance(state, residual_, inertia_);
+    keepMass(state, massOf(*before_));
     outcome.gasIterations = gas.iterations;
     outcome.largestRise = gas.largestRise;
     outcome.limited = gas.limited;
@@ -117,21 +231,30 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
       const double share = gas_.shares()[c];
       haste_[c] = std::clamp(haste_[c] * (share < 1.0 ? std::max(share, mostSlowed) : catchesUp), leastHaste, 1.0);
     }
-    residual_.evaluateFlow(state);
-    const FlowUpdate::Result flow = flow_.advance(state, flowInertia_);
-    outcome.flowIterations = flow.iterations;
-    outcome.pressureIterations = flow.pressureIterations;
+    if (carried_) carried_->advance(state, residual_, inertia_, gas_.carriedSlopes());
+    for (int pass = 0; pass < flowPasses; ++pass) {
+      residual_.evaluateFlow(state);
+      const FlowUpdate::Result flow = flow_.advance(state, flowInertia_);
+      outcome.flowIterations += flow.iterations;
+      outcome.pressureIterations += flow.pressureIterations;
+    }
+    if (last < options_.accelerated && outcome.limited == 0)
+      accelerate(state);
+    else
+      mixing_.clear();
     residual_.evaluate(state);
     measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {
     outcome.why = error.what();
     return outcome;
   }
-  if (!(measure_ <= tolerated * last)) {
+  if (measure_ > forgets * last) mixing_.clear();
+  if (!(measure_ <= (isAnew_ ? toleratedFirst : tolerated) * last)) {
     outcome.why = "the residual grows";
     return outcome;
   }
   outcome.taken = true;
+  isAnew_ = false;
   courant_ *= std::clamp(last / measure_, leastGrowth, mostGrowth);
   courant_ = std::min(courant_, options_.mostCourant);
   return outcome;
@@ -143,6 +266,8 @@ SteadyIteration::Outcome SteadyIteration::iterate(State& state) {
   Outcome outcome = attempt(state);
   if (outcome.taken) return outcome;
   state = *before_;
+  mixing_.clear();
+  isAnew_ = true;
   courant_ = std::max(courant_ * afterFailure, leastCourant);
   residual_.evaluate(state);
   measure_ = outcome.measure = last;

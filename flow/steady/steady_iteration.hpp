@@ -15,8 +15,10 @@
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
 #include "flow/state.hpp"
+#include "flow/steady/carried_update.hpp"
 #include "flow/steady/flow_update.hpp"
 #include "flow/steady/gas_update.hpp"
+#include "numerics/anderson_mixing.hpp"
 
 namespace lampblack::flow {
 
@@ -26,7 +28,11 @@ class SteadyIteration {
     VelocityScheme scheme = VelocityScheme::Limited;
     // Pseudo-time of a cell over the time in which the gas in it is renewed.
     double firstCourant = 2.0, mostCourant = 1e4;
-    double mostFlowCourant = 5.0;  // of velocities and pressure
+    // The same of velocities and pressure, however slow the gas has to go: in a short time the pressure would have to
+    // be large to move all of the mass that a new density moves.
+    double flowCourant = 5.0;
+    // Outcome::measure below which iterations are accelerated: of a flow whose flame stands where it will stand.
+    double accelerated = 3e-4;
   };
 
   // Collective. `operators`: whose rates act in the cells; they have to live as long. The state is evaluated.
@@ -53,17 +59,27 @@ class SteadyIteration {
 
  private:
   Outcome attempt(State& state);
+  // Takes the best combination of the last iterations in place of the present.
+  void accelerate(State& state);
+  [[nodiscard]] double massOf(const State& state) const;  // kg
+  void keepMass(State& state, double mass) const;
+  [[nodiscard]] std::vector<double> unknownsOf(const State& state) const;
+  [[nodiscard]] std::vector<double> weights(const State& state) const;
   void setInertia(const State& state);
   // Of the state that was evaluated: what is left of all equations over what goes through the cells.
   [[nodiscard]] double measure(const State& state) const;
+  [[nodiscard]] double ofCarried(const State& state, double through) const;
 
   const FlowContext& context_;
   Options options_;
   std::vector<Operator*> operators_;
   FlowResidual residual_;
   GasUpdate gas_;
+  std::optional<CarriedUpdate> carried_;  // where the flow carries something
   FlowUpdate flow_;
+  AndersonMixing mixing_;
   double courant_;
+  bool isAnew_ = true;  // the first iteration, or the last has failed
   double measure_ = 0.0;
   std::vector<double> inertia_, flowInertia_;  // kg/s, owned cells
   std::vector<double> haste_;                  // owned cells: of the pseudo-time that others have

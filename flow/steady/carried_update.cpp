@@ -1,0 +1,93 @@
+#include "flow/steady/carried_update.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lampblack::flow {
+namespace {
+
+constexpr double carriedReduction = 0.1;  // of the linear system's residual
+constexpr int mostCarriedIterations = 60;
+// What an iteration leaves of an amount at least and at most; and at most, of the largest amount anywhere, beside that.
+constexpr double leastLeft = 0.1, mostLeft = 10.0, mostBeside = 0.1;
+
+}  // namespace
+
+CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators)
+    : context_(context),
+      operators_(std::move(operators)),
+      n_(state.scalars.size()),
+      system_(context.mesh, context.halo, n_),
+      scales_(n_) {
+  right_.resize(static_cast<std::size_t>(context.mesh.owned) * n_);
+  change_.resize(static_cast<std::size_t>(context.mesh.cells) * n_);
+  conductance_.resize(static_cast<std::size_t>(context.mesh.faces) * n_);
+  flux_.resize(conductance_.size());
+}
+
+void CarriedUpdate::findScales(const State& state) {
+  std::ranges::fill(scales_, 0.0);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
+    for (std::size_t s = 0; s < n_; ++s)
+      scales_[s] = std::max(scales_[s], std::abs(state.carried[c * n_ + s]) / state.density[c]);
+  MPI_Allreduce(MPI_IN_PLACE, scales_.data(), static_cast<int>(n_), MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+  for (double& scale : scales_)
+    if (scale <= 0.0) scale = 1.0;
+}
+
+void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia,
+                             std::span<const double> slopes) {
+  const Mesh& m = context_.mesh;
+  const FlowResidual::Rates& rates = residual.rates();
+  system_.clear();
+  for (int cell = 0; cell < m.owned; ++cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    double* block = system_.block(cell);
+    for (std::size_t s = 0; s < n_; ++s) {
+      const double perMass = state.carried[c * n_ + s] / state.density[c];
+      const bool moves = state.scalars[s].isTransported;
+      right_[c * n_ + s] = moves ? (rates.carried[c * n_ + s] - perMass * rates.mass[c]) / scales_[s] : 0.0;
+      for (std::size_t by = 0; by < n_ && moves; ++by)
+        block[by * n_ + s] -=
+            m.volume[c] * state.density[c] * slopes[(c * n_ + by) * n_ + s] * scales_[by] / scales_[s];
+    }
+    system_.addInertia(cell, inertia[c]);
+  }
+  std::ranges::fill(conductance_, 0.0);
+  residual.carried().diffusiveFlux(state, residual.faces(), conductance_, flux_);
+  for (int face = 0; face < m.faces; ++face)
+    for (std::size_t s = 0; s < n_; ++s) {
+      if (!state.scalars[s].isTransported) continue;
+      const std::size_t at = static_cast<std::size_t>(face) * n_ + s;
+      system_.connect(face, s, conductance_[at], state.massFlux[face]);
+      const double drift = state.scalars[s].thermophoresis * residual.carried().driftFlux()[face];
+      if (m.high[face] >= 0 && drift != 0.0) system_.drift(face, s, drift);
+    }
+}
+
+void CarriedUpdate::take(State& state, int cell) const {
+  const auto c = static_cast<std::size_t>(cell);
+  for (std::size_t s = 0; s < n_; ++s) {
+    double& amount = state.carried[c * n_ + s];
+    const double present = amount / state.density[c], change = scales_[s] * change_[c * n_ + s];
+    const double least = present > 0.0 ? leastLeft * present : std::min(present, 0.0);
+    const double most = mostLeft * std::max(present, 0.0) + mostBeside * scales_[s];
+    amount = state.density[c] * std::clamp(present + change, least, most);
+  }
+}
+
+int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
+                           std::span<const double> slopes) {
+  findScales(state);
+  assemble(state, residual, inertia, slopes);
+  const BlockSystem::Result result = system_.solve(right_, change_, carriedReduction, mostCarriedIterations);
+  for (int c = 0; c < context_.mesh.owned; ++c) take(state, c);
+  for (Operator* op : operators_) op->setDiffusivities(state);
+  state.updateHalo(context_.halo);
+  return result.iterations;
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,192 @@
+// Iterations towards the steady state: what they end in is what steps in time end in, of a flow, of a flame and of what
+// is carried and made in it; the same on any number of ranks.
+#include "flow/steady/steady_iteration.hpp"
+
+#include <gtest/gtest.h>
+
+#include "flow/models/radiation_operator.hpp"
+#include "flow/models/reaction_operator.hpp"
+#include "flow/steady/block_system.hpp"
+#include "flow/stepping/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_module.hpp"
+
+namespace lampblack::test {
+namespace {
+
+// Something that hot gas makes of itself and that decays: made * T, less itself by its lifetime.
+class HotDust : public Operator {
+ public:
+  explicit HotDust(const Mesh& mesh) : mesh_(mesh) {}
+  [[nodiscard]] const char* name() const override { return "dust"; }
+  void advance(State&, double, double) override {}
+  void endSweep(State& state) override { addRates(state, state.balance); }
+  void addRates(const State& state, State::Balance& rates) override {
+    for (int c = 0; c < mesh_.owned; ++c)
+      rates.carried[at(c)] += made * state.temperature[at(c)] - state.carried[at(c)] / lifetime;
+  }
+  void addSlopes(const State&, const Slopes& slopes) override {
+    for (int c = 0; c < mesh_.owned; ++c) slopes.carried[at(c)] -= 1.0 / lifetime;
+  }
+
+ private:
+  static constexpr double made = 0.1, lifetime = 0.01;
+  const Mesh& mesh_;
+};
+
+class SteadyIterations : public testing::Test {
+ protected:
+  Gas& gas = Gas::hydrogen();
+  std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  std::vector<double> lean = gas.massFractions("H2: 0.25, O2: 0.15, N2: 0.6");
+
+  std::vector<double> burnt = gas.massFractions("H2O: 0.25, O2: 0.025, N2: 0.6");
+
+  // A channel, wider by the wall, along which gas comes in.
+  [[nodiscard]] Box channel(const std::vector<double>& Y, double temperature, double speed,
+                            MPI_Comm comm = MPI_COMM_WORLD) const {
+    Side wall = side(BoundaryKind::Wall, 0, true);
+    wall.condition.slip = false;
+    const std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), wall,
+                                  opening(BoundaryKind::Inlet, 1, false, speed, temperature, Y),
+                                  opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, air)};
+    MeshSpec spec;
+    spec.geometry = Geometry::Planar;
+    spec.vertices = {gradedAxis(0.0, {{0.006, 6, 2.0}}), uniformAxis(0.012, 14), {}};
+    std::vector<BoundaryCondition> conditions;
+    for (const Side& s : sides) {
+      spec.patches.push_back(s.patch);
+      conditions.push_back(s.condition);
+    }
+    return {spec, conditions, {}, comm};
+  }
+};
+
+struct OperatorsOfFlow {
+  OperatorsOfFlow(Box& box, const State& state)
+      : transport(box.context, state),
+        chemistry(box.context, {}),
+        radiation(box.context, 298.0, nullptr),
+        dust(box.mesh) {}
+  std::vector<Operator*> all() { return {&transport, &chemistry, &radiation, &dust}; }
+  void begin(State& state) {
+    state.updateHalo(halo());
+    for (Operator* op : all()) op->endStep(state);
+    for (Operator* op : all()) op->endSweep(state);
+  }
+  void take(State& state, double time, double dt) {
+    for (Operator* op : all()) op->advance(state, time, dt);
+    for (Operator* op : all()) op->endStep(state);
+    for (Operator* op : all()) op->endSweep(state);
+  }
+  [[nodiscard]] HaloExchange& halo() const { return *halo_; }
+  HaloExchange* halo_ = nullptr;
+  TransportOperator transport;
+  ReactionOperator chemistry;
+  RadiationOperator radiation;
+  HotDust dust;
+};
+
+// Of each field, the largest difference of two states over the field's range.
+std::vector<double> differences(const Box& b, const State& one, const State& other) {
+  std::vector<double> all;
+  const auto compare = [&](const std::vector<double>& x, const std::vector<double>& y, int components) {
+    double most = 0.0, high = -1e300, low = 1e300;
+    for (std::size_t i = 0; i < at(b.mesh.owned * components); ++i) {
+      most = std::max(most, std::abs(x[i] - y[i]));
+      high = std::max(high, x[i]);
+      low = std::min(low, x[i]);
+    }
+    MPI_Comm comm = b.mesh.comm;
+    for (double* value : {&most, &high}) MPI_Allreduce(MPI_IN_PLACE, value, 1, MPI_DOUBLE, MPI_MAX, comm);
+    MPI_Allreduce(MPI_IN_PLACE, &low, 1, MPI_DOUBLE, MPI_MIN, comm);
+    all.push_back(most / std::max(high - low, 1e-3 * high));
+  };
+  compare(one.velocity, other.velocity, 2);
+  compare(one.pressure, other.pressure, 1);
+  compare(one.temperature, other.temperature, 1);
+  compare(one.Y, other.Y, one.species);
+  compare(one.carried, other.carried, 1);
+  return all;
+}
+
+const std::vector<CarriedScalar> dust{{"dust", "1/m3", "", 0.55}};
+
+TEST_F(SteadyIterations, EndWhereStepsDo) {
+  Box b = channel(air, 400.0, 0.5);
+  const auto start = [&] {
+    State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 350.0, air}; }, dust);
+    for (double& D : state.carriedDiffusivity) D = 1e-5;
+    return state;
+  };
+  State marched = start(), iterated = start();
+  OperatorsOfFlow steps(b, marched), beside(b, iterated);
+  steps.halo_ = beside.halo_ = &b.halo;
+  const double dt = 5e-4;
+  steps.transport.initialise(marched, dt);
+  steps.begin(marched);
+  for (int i = 0; i < 500; ++i) steps.take(marched, i * dt, dt);
+  beside.transport.initialise(iterated, dt);
+  beside.begin(iterated);
+  SteadyIteration iteration(b.context, iterated, {}, beside.all());
+  int count = 0;
+  double measure = 1.0;
+  for (; count < 150 && measure > 2e-10; ++count) {
+    measure = iteration.iterate(iterated).measure;
+  }
+  report(fmt::format("{} iterations, left {:.2g}", count, measure));
+  EXPECT_LE(measure, 2e-10);
+  EXPECT_LT(count, 75);
+  std::string text;
+  for (const double difference : differences(b, iterated, marched)) {
+    text += fmt::format(" {:.2g}", difference);
+    EXPECT_LT(difference, 1e-6);
+  }
+  report("differs:" + text);
+}
+
+// The flame that iterations find is one that steps leave as it is; on one rank it is the same.
+TEST_F(SteadyIterations, FindAFlame) {
+  const auto find = [&](MPI_Comm comm, auto look) {
+    Box b = channel(lean, 300.0, 0.8, comm);
+    State state = b.state(
+        [&](const auto& x) {
+          return x[1] > 0.002 ? Box::Local{{0.0, 0.8}, 2200.0, burnt} : Box::Local{{0.0, 0.8}, 300.0, lean};
+        },
+        dust);
+    for (double& D : state.carriedDiffusivity) D = 1e-5;
+    OperatorsOfFlow operators(b, state);
+    operators.halo_ = &b.halo;
+    operators.transport.initialise(state, 1e-6);
+    operators.begin(state);
+    for (int i = 0; i < 40; ++i) operators.take(state, i * 1e-5, 1e-5);
+    SteadyIteration iteration(b.context, state, {}, operators.all());
+    int count = 0;
+    double measure = 1.0;
+    for (; count < 200 && measure > 1e-10; ++count) measure = iteration.iterate(state).measure;
+    if (comm == MPI_COMM_WORLD) report(fmt::format("{} iterations, left {:.2g}", count, measure));
+    EXPECT_LE(measure, 1e-10);
+    const double share = comm == MPI_COMM_SELF ? 1.0 / sumOverRanks(1.0) : 1.0;
+    const std::vector<double> found{share * integral(b.mesh, [&](int c) { return state.temperature[at(c)]; }),
+                                    share * integral(b.mesh, [&](int c) { return state.carried[at(c)]; })};
+    look(b, state, operators);
+    return found;
+  };
+  const std::vector<double> alone = find(MPI_COMM_SELF, [](Box&, State&, OperatorsOfFlow&) {});
+  const std::vector<double> together = find(MPI_COMM_WORLD, [&](Box& b, State& state, OperatorsOfFlow& operators) {
+    EXPECT_GT(largest(b.mesh, [&](int c) { return state.temperature[at(c)]; }), 1300.0);
+    const State found = state;
+    operators.begin(state);
+    for (int i = 0; i < 500; ++i) operators.take(state, i * 1e-4, 1e-4);
+    std::string text;
+    for (const double difference : differences(b, state, found)) {
+      text += fmt::format(" {:.2g}", difference);
+      EXPECT_LT(difference, 1e-6);
+    }
+    report("what 500 steps change:" + text);
+  });
+  for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_NEAR(alone[i] / together[i], 1.0, 1e-8);
+}
+
+}  // namespace
+}  // namespace lampblack::test
