@@ -37,6 +37,9 @@ class Projection {
   Result solve(double dt, std::span<const double> inverseDensity, std::span<const double> divergence,
                std::span<double> faceVelocity, std::span<double> change, double slowFlow = 0.0);
 
+  // The next solve makes its preconditioner anew.
+  void forget() { iterationsAfterSetup_ = -1; }
+
   // The preconditioner is kept as the conductances of the matrix it was made from, and made from them again.
   void saveOrLoad(StateArchive& archive);
 

@@ -26,6 +26,9 @@ class FlowUpdate {
   // mass over the cell's pseudo-time.
   Result advance(State& state, std::span<const double> inertia);
 
+  // What follows depends on the state alone.
+  void forget() { projection_.forget(); }
+
  private:
   void assemble(const State& state, std::span<const double> inertia);
   // Velocities and mass fluxes under the pressure there is.

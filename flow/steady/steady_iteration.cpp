@@ -49,6 +49,11 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
 void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   archive.shared("steady_courant", courant_);
   archive.cells("steady_haste", haste_, 1);
+  double anew = isAnew_ ? 1.0 : 0.0;
+  archive.shared("steady_is_anew", anew);
+  isAnew_ = anew != 0.0;
+  mixing_.clear();
+  flow_.forget();
   if (!archive.loading()) return;
   residual_.evaluate(state);
   measure_ = measure(state);

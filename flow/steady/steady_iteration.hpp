@@ -54,7 +54,9 @@ class SteadyIteration {
   // Of the state as it is now.
   [[nodiscard]] const FlowResidual& residual() const { return residual_; }
 
-  // What is kept from one iteration to the next; the state has to be loaded before. Collective.
+  // What is kept from one iteration to the next; the state has to be loaded before, its halo filled. What is not saved
+  // (the iterations that are combined, the pressure's preconditioner) is begun anew, by who saves too: both go on with
+  // the same bits. Collective.
   void saveOrLoad(const State& state, StateArchive& archive);
 
  private:
