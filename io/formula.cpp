@@ -53,4 +53,8 @@ double Formula::operator()(std::span<const double> values) const {
   return result;
 }
 
+bool Formula::has(const std::string& variable) const {
+  return parser_->expression.GetUsedVar().contains(variable);
+}
+
 }  // namespace lampblack::io

@@ -22,6 +22,8 @@ class Formula {
   double operator()(std::span<const double> values) const;
 
   const std::string& text() const { return text_; }
+  // Whether the expression has this variable in it.
+  [[nodiscard]] bool has(const std::string& variable) const;
 
  private:
   struct Parser;

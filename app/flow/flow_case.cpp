@@ -43,14 +43,6 @@ Stream streamOf(const Deck& deck, const std::string& key, const FlowCase& flowCa
 }
 
 // What is given over place, on whatever the start is otherwise.
-std::vector<std::string> carriedNames(const FlowCase& flowCase) {
-  std::vector<std::string> names;
-  if (flowCase.carried)
-    for (const CarriedScalar& scalar : CarriedOperator::blockOf(*flowCase.carried, {}).scalars)
-      names.push_back(scalar.name);
-  return names;
-}
-
 void readInitialFields(const Deck& deck, FlowCase& flowCase) {
   const AxisNames axes = axisNames(flowCase);
   GivenFields::Names names{{"temperature", units::temperature}};
@@ -244,18 +236,6 @@ void readSoot(const Deck& deck, FlowCase& flowCase) {
   flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
 }
 
-std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase) {
-  if (!deck.has("time.steady")) return {};
-  if (flowCase.ensembles)
-    throw deck.error("time.steady",
-                     "ensembles in the cells fluctuate, and with them the gas: their fields never come to rest. Leave "
-                     "this out; averages that start by themselves tell when the soot has no trend "
-                     "(stochastic.statistics)");
-  return SteadyControl{deck.number("time.steady.tolerance"), deck.optionalQuantity("time.steady.time"),
-                       deck.quantity("time.steady.after"),
-                       deck.choice("time.steady.norm") == "rms" ? Steadiness::Norm::Rms : Steadiness::Norm::Maximum};
-}
-
 // Of a plane mesh r and z may stand for x and y.
 Vector3 readStart(const Deck& deck, const std::string& item, const FlowCase& flowCase) {
   AxisNames names = axisNames(flowCase);
@@ -303,6 +283,7 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.title = deck.string("title");
   flowCase.pressure = deck.quantity("pressure");
   flowCase.seed = deck.integer<std::uint64_t>("seed");
+  requireModeOfParticles(deck);
   flowCase.mechanism = readMechanism(deck);
   readMesh(deck, flowCase);
   flowCase.transport = readTransport(deck, *flowCase.mechanism);
@@ -313,30 +294,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readCarriedStart(deck, flowCase);
   readGravity(deck, flowCase);
   flowCase.radiation = readRadiation(deck, *flowCase.mechanism);
-  flowCase.time = {deck.quantity("time.end"),
-                   deck.quantity("time.first_step"),
-                   deck.quantity("time.maximum_step"),
-                   deck.number("time.growth"),
-                   deck.optionalNumber("time.tolerance"),
-                   deck.integer<int>("time.retries"),
-                   deck.optionalQuantity("time.wall_limit"),
-                   deck.quantity("time.temperature_change"),
-                   deck.number("time.least_mass_fraction"),
-                   readSteady(deck, flowCase)};
-  flowCase.flow.courant = deck.number("time.courant");
-  flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
-  if (deck.choice("convection.velocity") == "central") {
-    flowCase.flow.velocityScheme = VelocityScheme::Central;
-    if (flowCase.flow.sweeps < 2)
-      throw deck.error("convection.velocity",
-                       "central convection is not stable in steps of one sweep; expected "
-                       "'time.sweeps: 2' or more");
-  }
-  if (flowCase.time.tolerance && flowCase.flow.sweeps < 2)
-    throw deck.error("time.tolerance",
-                     "the error of a step is what its last sweep corrects; expected 'sweeps: 2' or more");
-  if (flowCase.time.firstStep > flowCase.time.maximumStep)
-    throw deck.error("time.first_step", "expected no more than 'maximum_step'");
+  readTime(deck, flowCase);
   flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");
   flowCase.chemistry.reactor.rosenbrockSteps = deck.integer<int>("chemistry.rosenbrock_steps");
   flowCase.chemistry.reactor.absoluteTolerance = deck.number("chemistry.absolute_tolerance");

@@ -22,6 +22,7 @@
 #include "flow/models/reaction_operator.hpp"
 #include "flow/properties/transport_model.hpp"
 #include "flow/steady/steadiness.hpp"
+#include "flow/steady/steady_search.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "io/deck.hpp"
 #include "io/file_storage.hpp"
@@ -48,6 +49,17 @@ struct TimeControl {
   double temperatureChange = 500.0;  // K, of a cell in a step; more and the step fails
   double leastMassFraction = -1e-4;  // of a cell; below and the step fails
   std::optional<SteadyControl> steady;
+  // In place of a run until `end`, which is then infinite, the search for the steady state.
+  struct Search : SteadySearch::Options {
+    std::optional<double> time = {};  // s, as SteadyControl::time
+    int coarserMeshes = 0;            // on which the state is sought first
+  };
+  std::optional<Search> search;
+
+  // s, that changes and residuals are told for; nothing: what the flow gives.
+  [[nodiscard]] std::optional<double> steadyTime() const {
+    return search ? search->time : steady ? steady->time : std::nullopt;
+  }
 };
 
 // Tables beside the fields and the history.

@@ -122,8 +122,12 @@ class ConditionReader {
         mechanism_(*flowCase.mechanism),
         fields_(deck, section_, axisNames(flowCase), variableNames(type_), mechanism_) {
     boundary_.name = name;
-    boundary_.varies = {fields_.find("velocity"), fields_.find("tangential_velocity"), fields_.find("swirl_velocity"),
-                        fields_.find("heat_flux"), fields_.gas()};
+    boundary_.varies = {fields_.find("velocity"),
+                        fields_.find("tangential_velocity"),
+                        fields_.find("swirl_velocity"),
+                        fields_.find("heat_flux"),
+                        fields_.gas(),
+                        fields_.varyInTime()};
   }
 
   BoundaryCondition read() {

@@ -69,8 +69,10 @@ void addOutputKeys(DeckSchema& schema) {
   schema
       .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
                .optional()
-               .above(0))
-      .add(integerKey("output.history_steps", "Number of time steps between two rows of the history.")
+               .above(0)
+               .onlyWith("time.mode", {"transient"}))
+      .add(integerKey("output.history_steps",
+                      "Number of time steps, and of iterations, between two rows of the history.")
                .byDefault("1")
                .atLeast(1))
       .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")

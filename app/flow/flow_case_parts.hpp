@@ -37,6 +37,12 @@ void readBoundaries(const Deck& deck, FlowCase& flowCase);
 // become _.
 std::string fileNameOf(std::string name);
 
+// The section time: its keys, and reading it with what else the steps depend on, when boundaries, start and particles
+// have been read. requireModeOfParticles: ensembles fluctuate and are never steady.
+void addTimeKeys(DeckSchema& schema);
+void requireModeOfParticles(const Deck& deck);
+void readTime(const Deck& deck, FlowCase& flowCase);
+
 // The section output: its keys, and reading it when mesh, boundaries and times have been read.
 void addOutputKeys(DeckSchema& schema);
 void readOutput(const Deck& deck, FlowCase& flowCase);

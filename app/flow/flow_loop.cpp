@@ -24,8 +24,8 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       closing_(closingStages(case_)),
       quality_(domain_->mesh),
       steadiness_(domain_->context, domain_->state,
-                  {case_.time.steady ? case_.time.steady->time : std::nullopt,
-                   std::ranges::none_of(domain_->operators, &Operator::isStochastic)}),
+                  {case_.time.steadyTime(), std::ranges::none_of(domain_->operators, &Operator::isStochastic)}),
+      search_(case_.time.search),
       costs_(domain_->mesh),
       repartitions_(case_.repartition.has_value() && domain_->mesh.ranks > 1),
       backup_(domain_->mesh.owned, domain_->mesh.faces),
@@ -74,7 +74,8 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   for (Operator* op : operators_) op->beginRun();
   Outputs outputs{
       folder, ResultsWriter(comm_, folder.results(), info, meshOutput(domain_->mesh), case_.output.storage),
-      HistoryWriter(comm_, folder.history(), columns()), Progress(comm_, time_, case_.time.end),
+      HistoryWriter(comm_, folder.history(), columns()),
+      search_ ? Progress(comm_, 0.0, 1.0) : Progress(comm_, time_, case_.time.end),
       FlowCheckpoints(comm_, case_.checkpoint, flowFingerprint(case_, domain_->state.scalars), folder.path())};
   auto& [_, results, history, progress, checkpoints] = outputs;
   tables_->open(folder);
@@ -103,12 +104,17 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       if (!problem.empty()) printWarnings({problem});
     }
     stepBegan_ = secondsSinceStart();
-    stepWithRetries(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
-    watchSteadiness();
+    if (search_)
+      searchOn(outputs);
+    else
+      stepInTime(outputs);
     const bool due = time_ >= nextOutput_ * (1.0 - 1e-12) || isAtEnd();
     if (due || steps_ % case_.output.historySteps == 0) {
       const HistoryRow row = writeRow(history);
-      progress.update(steps_, time_, dt_, status(row));
+      if (search_)
+        progress.say(searchPlace(), search_->progress(), status(row));
+      else
+        progress.update(steps_, time_, dt_, status(row));
     }
     if (due) {
       output(results);
@@ -144,6 +150,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
 }
 
 bool FlowLoop::isSteady() const {
+  if (search_) return search_->isSteady();
   const std::optional<SteadyControl>& steady = case_.time.steady;
   return steady && time_ >= steady->after && steadiness_.isSteady(steady->tolerance, steady->norm);
 }
@@ -154,15 +161,20 @@ bool FlowLoop::isAtEnd() const {
 
 void FlowLoop::watchSteadiness() {
   const Timers::Scope scope(timers_, "monitoring");
-  const auto heatRelease = [this] {
-    std::vector<double> heat;
-    const auto keep = [&](const Quantity&, std::span<const double> values) {
-      heat.assign(values.begin(), values.end());
-    };
-    domain_->chemistry.fields(domain_->state, Operator::FieldSink(keep));
-    return heat;
-  };
-  steadiness_.add(domain_->state, domain_->flow.properties(), heatRelease, time_);
+  steadiness_.add(
+      domain_->state, domain_->flow.properties(), [this] { return heatRelease(); }, time_);
+}
+
+std::vector<double> FlowLoop::heatRelease() const {
+  std::vector<double> heat;
+  const auto keep = [&](const Quantity&, std::span<const double> values) { heat.assign(values.begin(), values.end()); };
+  domain_->chemistry.fields(domain_->state, Operator::FieldSink(keep));
+  return heat;
+}
+
+void FlowLoop::stepInTime(Outputs& outputs) {
+  stepWithRetries(chooseStep(dt_, std::min(nextOutput_, case_.time.end)), outputs);
+  watchSteadiness();
 }
 
 double FlowLoop::chooseStep(double previous, double until) {

@@ -1,4 +1,5 @@
-// One run of a flow: time steps, retries of failed steps, output, checkpoints and repartitioning.
+// One run of a flow: time steps, retries of failed steps, the search for a steady state, output, checkpoints and
+// repartitioning.
 #pragma once
 
 #include <mpi.h>
@@ -24,9 +25,13 @@
 #include "core/modules.hpp"
 #include "core/state_backup.hpp"
 #include "core/timers.hpp"
+#include "flow/equations/flow_residual.hpp"
 #include "flow/peak.hpp"
 #include "flow/steady/residual_norms.hpp"
 #include "flow/steady/steadiness.hpp"
+#include "flow/steady/steady_iteration.hpp"
+#include "flow/steady/steady_search.hpp"
+#include "io/json.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"
 #include "io/run_record.hpp"
@@ -66,6 +71,8 @@ class FlowLoop {
   void measure(RunRecord& record) const;
 
   void report(double wallTime, RunRecord& record);
+  // The part of the report that is of the search. Collective.
+  void tellSearch();
 
  private:
   // Output of a run in progress.
@@ -97,10 +104,33 @@ class FlowLoop {
   void resumeFromLoadedState();
 
   void step(double dt);
+  // The next step in time, until an output or the end.
+  void stepInTime(Outputs& outputs);
 
   // A step that fails is repeated from its start with a shorter dt (s). NumericsError where the last retry fails; the
   // last good state is then on disk.
   void stepWithRetries(double dt, Outputs& outputs);
+
+  // A step in time or an iteration, whichever the search for the steady state wants next. NumericsError where it is
+  // given up; the last state is then on disk.
+  void searchOn(Outputs& outputs);
+  void iterate(Outputs& outputs);
+  void makeIteration();
+  // From iterations that have ended in vain to steps in time.
+  void goBack(Outputs& outputs);
+  [[noreturn]] void giveUp(Outputs& outputs);
+  // Collective. Of the state now; kept in norms_.
+  void findNorms(const FlowResidual& residual);
+  [[nodiscard]] double largestNorm() const;
+  // W/m^3, of the owned cells; W (or per metre or radian) of the domain, collective.
+  [[nodiscard]] std::vector<double> heatRelease() const;
+  [[nodiscard]] double totalHeatRelease() const;
+  void saveOrLoadSearch(StateArchive& archive);
+  // Of the search: columns and values of the history, for the closing report.
+  [[nodiscard]] std::vector<Quantity> searchColumns() const;
+  [[nodiscard]] std::vector<double> searchValues() const;
+  [[nodiscard]] std::vector<std::string> searchLines() const;
+  [[nodiscard]] std::string searchPlace() const;  // for the line of progress
 
   // The mesh, partitioned by the weights of the owned cells.
   Mesh partitionedBy(const std::vector<double>& weights);
@@ -135,6 +165,7 @@ class FlowLoop {
   [[nodiscard]] const Operator* holder() const;
   // How far from steady the run ended, for the closing report.
   [[nodiscard]] std::vector<std::string> steadyLines() const;
+  void addSearch(JsonWriter& json) const;
   // Collective. By equation; nothing where an operator is stochastic, whose rates are those of single events, nor, with
   // a warning, where the gas has no properties or rates.
   [[nodiscard]] std::vector<ResidualNorm> residualNow();
@@ -167,6 +198,12 @@ class FlowLoop {
   std::vector<std::unique_ptr<ClosingStage>> closing_;
   MeshQuality quality_;
   Steadiness steadiness_;
+  std::optional<SteadySearch> search_;
+  std::unique_ptr<FlowResidual> residual_;      // of the states that steps lead to; made where it is asked for
+  std::unique_ptr<SteadyIteration> iteration_;  // while the search iterates
+  std::vector<ResidualNorm> norms_;             // of the last state that was evaluated
+  std::int64_t normsOf_ = -1;                   // its number of steps
+  std::array<double, 2> processorTime_{};       // s, of steps and of iterations, of all ranks
   CellCosts costs_;
   bool repartitions_;  // whether the mesh may still be partitioned anew
   std::unique_ptr<FlowTables> tables_;

@@ -23,6 +23,8 @@ Mesh FlowLoop::partitionedBy(const std::vector<double>& weights) {
 }
 
 void FlowLoop::replaceMesh(Mesh mesh) {
+  residual_.reset();
+  iteration_.reset();
   domain_.reset();  // before there is another
   domain_ =
       std::make_unique<FlowDomain>(std::move(mesh), case_, thermo_, transport_, withFailedCellFiles(case_.chemistry));

@@ -53,15 +53,15 @@ std::string steepnessText(const flow::FlameSteepness& flame, int dimension) {
           : "");
 }
 
-// Rows of a history that was written with the last columns that are asked for now, or without: NaN is what they do not
-// have.
-std::vector<double> withWidth(const std::vector<double>& rows, std::size_t from, std::size_t to) {
+// Rows of a history of other last columns than those that are asked for now, behind the common ones: NaN is what they
+// do not have.
+std::vector<double> withWidth(const std::vector<double>& rows, std::size_t from, std::size_t common, std::size_t to) {
   if (from == to) return rows;
   std::vector<double> others;
   for (std::size_t row = 0; row + from <= rows.size(); row += from) {
     const auto begin = rows.begin() + static_cast<std::ptrdiff_t>(row);
-    others.insert(others.end(), begin, begin + static_cast<std::ptrdiff_t>(std::min(from, to)));
-    if (to > from) others.insert(others.end(), to - from, std::numeric_limits<double>::quiet_NaN());
+    others.insert(others.end(), begin, begin + static_cast<std::ptrdiff_t>(common));
+    others.insert(others.end(), to - common, std::numeric_limits<double>::quiet_NaN());
   }
   return others;
 }
@@ -77,6 +77,10 @@ const std::vector<Quantity> steadyColumns{
 std::vector<Quantity> FlowLoop::columns() const {
   std::vector<Quantity> columns = historyColumns(domain_->mesh, operators_, domain_->budget->lines(domain_->state));
   if (case_.time.steady) columns.insert(columns.end(), steadyColumns.begin(), steadyColumns.end());
+  if (search_) {
+    const std::vector<Quantity> more = searchColumns();
+    columns.insert(columns.end(), more.begin(), more.end());
+  }
   return columns;
 }
 
@@ -85,7 +89,7 @@ HistoryRow FlowLoop::observe() {
   HistoryRow row;
   row.step = steps_;
   row.time = time_;
-  row.dt = dt_;
+  row.dt = iteration_ ? 0.0 : dt_;
   row.retriedSteps = retried_;
   row.extremes = extremesOf(domain_->context, domain_->state);
   for (Operator* op : operators_) {
@@ -93,6 +97,7 @@ HistoryRow FlowLoop::observe() {
     row.operators.insert(row.operators.end(), values.begin(), values.end());
   }
   row.budget = domain_->budget->lines(domain_->state);
+  if (search_) row.steady = searchValues();
   if (case_.time.steady) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     for (const auto norm : {Steadiness::Norm::Maximum, Steadiness::Norm::Rms}) {
@@ -119,6 +124,9 @@ std::string FlowLoop::status(const HistoryRow& row) const {
   std::string text = fmt::format("Tmax {:.0f} K", row.extremes.maximumTemperature);
   for (const Operator* op : operators_)
     if (const std::string more = op->status(); !more.empty()) text += "  " + more;
+  if (search_)
+    if (const std::string norms = residualText(norms_, domain_->mesh.dimension); !norms.empty())
+      text += "  residual: " + norms;
   if (!case_.time.steady) return text;
   const auto& [tolerance, _, after, norm] = *case_.time.steady;
   if (const auto change = steadiness_.change(norm))
@@ -131,6 +139,7 @@ std::string FlowLoop::status(const HistoryRow& row) const {
 
 std::vector<std::string> FlowLoop::steadyLines() const {
   if (holder() != nullptr) return {};
+  if (search_) return searchLines();
   std::vector<std::string> lines = steadiness_.lines();
   if (case_.time.steady)
     lines.push_back(fmt::format("{} (time.steady.tolerance {:.2g}, {} norm)",
@@ -142,6 +151,7 @@ std::vector<std::string> FlowLoop::steadyLines() const {
 
 std::vector<ResidualNorm> FlowLoop::residualNow() {
   if (std::ranges::any_of(operators_, &Operator::isStochastic)) return {};
+  if (normsOf_ == steps_) return norms_;
   const Timers::Scope scope(timers_, "monitoring");
   FlowResidual residual(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
   try {
@@ -162,13 +172,14 @@ std::string FlowLoop::steadyJson(const std::vector<ResidualNorm>& residual) cons
   };
   JsonWriter json;
   json.beginObject();
-  if (case_.time.steady) json.field("steady", isSteady());
+  if (case_.time.steady || search_) json.field("steady", isSteady());
   json.field("residence_time_s", steadiness_.time()).field("change", whole(Steadiness::Norm::Maximum));
   json.field("change_rms", whole(Steadiness::Norm::Rms));
   json.field("period_s", steadiness_.periodicity() ? steadiness_.periodicity()->period : unknown);
   json.key("residual").beginObject();
   for (const ResidualNorm& norm : residual) json.field(norm.equation.c_str(), norm.value);
   json.endObject();
+  if (search_) addSearch(json);
   json.endObject();
   return json.text();
 }
@@ -197,6 +208,8 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   closing.earlierSteps = earlierSteps_;
   closing.wallTime = wallTime;
   const std::vector<ResidualNorm> residual = residualNow();
+  MPI_Allreduce(MPI_IN_PLACE, processorTime_.data(), static_cast<int>(processorTime_.size()), MPI_DOUBLE, MPI_SUM,
+                comm_);
   measure(record);
   closing.stages = record.stages;
   closing.peakMemoryPerRank = record.peakMemoryPerRank;
@@ -221,7 +234,7 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   for (const std::string& line : steadyLines()) fmt::print("{}\n", line);
   if (const std::string text = residualText(residual, domain_->mesh.dimension); !text.empty())
     fmt::print("residual, of the throughflow: {}\n", text);
-  for (const Budget::Line& line : last_.budget)
+  for (const Budget::Line& line : search_ ? std::vector<Budget::Line>() : last_.budget)  // iterations have none
     fmt::print("budget of {:<5} closed to {:.2e} of the inflow\n", line.name, line.error);
   fmt::print("sum of mass fractions 1 to {:.1e}; most negative mass fraction {:.1e} at the end (nothing is clipped)\n",
              last_.extremes.massFractionSumError, last_.extremes.minimumMassFraction);
@@ -238,7 +251,8 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   costs_.saveOrLoad(archive);
   const double interval = case_.output.interval;
   const std::size_t width = columns().size();
-  const std::size_t withoutSteady = width - (case_.time.steady ? steadyColumns.size() : 0);
+  const std::size_t ofSearch = searchColumns().size();
+  const std::size_t common = width - (search_ ? ofSearch : case_.time.steady ? steadyColumns.size() : 0);
   std::vector<double> clock{time_,
                             static_cast<double>(steps_),
                             dt_,
@@ -250,14 +264,15 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   archive.shared("clock", clock);
   archive.shared("history", history);
   const auto stored = static_cast<std::size_t>(clock.size() > 6 ? clock[6] : 0.0);
-  const bool hasSteady = stored == withoutSteady + steadyColumns.size();
-  if (case_.time.steady && hasSteady) steadiness_.saveOrLoad(archive);
+  const bool hasSearch = stored == common + ofSearch, hasSteady = hasSearch || stored == common + steadyColumns.size();
+  if ((case_.time.steady || search_) && hasSteady) steadiness_.saveOrLoad(archive);
+  if (search_ && hasSearch) saveOrLoadSearch(archive);
   if (!archive.loading()) return;
   collectively(comm_, [&] {
-    if (clock.size() != 8 || (stored != withoutSteady && !hasSteady))
+    if (clock.size() != 8 || (stored != common && !hasSteady))
       throw InputError("the checkpoint was written by another version of Lampblack, with another history");
   });
-  history = withWidth(history, stored, width);
+  history = withWidth(history, stored, common, width);
   time_ = clock[0];
   steps_ = static_cast<std::int64_t>(clock[1]);
   dt_ = clock[2];
@@ -265,7 +280,7 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   nextOutput_ = clock[4] == interval ? clock[3] : interval * (std::floor(time_ / interval * (1.0 + 1e-12)) + 1.0);
   written_ = static_cast<std::int64_t>(clock[5]);
   retried_ = static_cast<std::int64_t>(clock[7]);
-  if (!case_.time.steady || !hasSteady) steadiness_.begin(domain_->state, time_);
+  if (!(case_.time.steady || search_) || !hasSteady) steadiness_.begin(domain_->state, time_);
 }
 
 void FlowLoop::restore(ResultsWriter& results, HistoryWriter& history) {

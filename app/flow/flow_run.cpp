@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/flow/coarser_meshes.hpp"
 #include "app/flow/flow_loop.hpp"
 #include "app/run/recorded_run.hpp"
 #include "app/run/warnings.hpp"
@@ -34,6 +35,7 @@ class PreparedFlow : public PreparedRun {
         throw deck.error("mesh", fmt::format("{} cells cannot be spread over {} ranks", cells, ranks));
     });
     seed_ = flowCase.seed;
+    coarserMeshes_ = flowCase.time.search ? flowCase.time.search->coarserMeshes : 0;
     species_ = flowCase.mechanism->numSpecies();
     reactions_ = flowCase.mechanism->numReactions();
     run_ = std::make_unique<FlowLoop>(comm, std::move(flowCase));
@@ -69,6 +71,8 @@ class PreparedFlow : public PreparedRun {
         if (rank == 0) fmt::print("continues from {}\n", restart->file.string());
       }
       try {
+        if (!restart && coarserMeshes_ > 0)
+          run_ = std::make_unique<FlowLoop>(comm_, caseFromCoarserMeshes(comm_, deck_, folder, info));
         run_->run(folder, info);
       } catch (const Stopped&) {
         run_->count(record);
@@ -87,6 +91,7 @@ class PreparedFlow : public PreparedRun {
   const Deck& deck_;
   double start_;
   std::uint64_t seed_ = 0;
+  int coarserMeshes_ = 0;
   std::vector<std::string> notes_;
   std::size_t species_ = 0, reactions_ = 0;
   std::unique_ptr<FlowLoop> run_;

@@ -150,87 +150,7 @@ void addInitial(DeckSchema& schema) {
   flowcase::addInitialFlowKeys(schema);
 }
 
-void addTimeAndOutput(DeckSchema& schema) {
-  schema.add(quantityKey("time.end", units::time, "Time at which the run ends, from zero.").above(0))
-      .add(quantityKey("time.first_step", units::time, "First time step.").byDefault("1 us").above(0))
-      .add(quantityKey("time.maximum_step", units::time, "Largest time step.").byDefault("1 ms").above(0))
-      .add(numberKey("time.courant", "Share of a cell's volume that may flow out in a step.")
-               .byDefault("0.5")
-               .above(0)
-               .atMost(1))
-      .add(integerKey(
-               "time.sweeps",
-               "Sweeps of deferred correction in a time step. 1: first order in time, for flames that become steady, "
-               "whose steady state is the same; 2: second order, at twice the cost, without the waves that one sweep "
-               "leaves in fast jets of little diffusion; more: smaller errors.")
-               .byDefault("1")
-               .atLeast(1)
-               .atMost(10))
-      .add(numberKey("time.tolerance",
-                     "Largest change by the last sweep that a time step may have in any cell, of the temperature "
-                     "(relative) and of a mass fraction; steps become as short as that needs, and no longer than the "
-                     "Courant number allows. Needs two sweeps; absent: the Courant number alone.")
-               .optional()
-               .above(0)
-               .below(1))
-      .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
-      .add(integerKey(
-               "time.retries",
-               "How often a time step that fails is tried again, each time with a quarter of its length, before "
-               "the run ends with its last good state and a checkpoint. Steps fail where a value is no number "
-               "any more, a temperature is out of range or colder than the start and all boundaries, more changes "
-               "than time.temperature_change and time.least_mass_fraction allow, or the pressure or a cell's "
-               "chemistry cannot be solved. "
-               "0: the first failure ends the run.")
-               .byDefault("4")
-               .atLeast(0)
-               .atMost(20))
-      .add(quantityKey("time.temperature_change", units::temperature,
-                       "Largest change of a cell's temperature in a time step. A step that changes one by more fails "
-                       "and is tried again, shorter, and the steps behind it become no longer than that needs.")
-               .byDefault("500 K")
-               .above(0))
-      .add(numberKey(
-               "time.least_mass_fraction",
-               "Most negative mass fraction that a time step may leave in a cell; one that leaves less, and has taken "
-               "it there by more than a tenth of this itself, fails and is tried again, shorter. Nothing is "
-               "clipped.")
-               .byDefault("-1e-4")
-               .below(0))
-      .add(quantityKey("time.wall_limit", units::time,
-                       "Wall time, from the start of the program, before whose end the run stops by itself as SIGTERM "
-                       "stops it: with its last state in the results and a checkpoint, from which `lampblack run "
-                       "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.")
-               .optional()
-               .above(0));
-  schema
-      .section(
-          "time.steady", Presence::optional,
-          "Ends the run, before time.end, once the flow is steady: over a whole residence time no field (velocity, "
-          "temperature, mass fractions, what particles are carried) has changed by more than the tolerance, and "
-          "the changes do not grow. Absent: the run goes on to time.end; its closing report says how steady it "
-          "is in either case. Not with ensembles in the cells, which fluctuate.")
-      .add(numberKey("time.steady.tolerance",
-                     "Largest change of a field in any cell over a residence time, as a share of the range of the "
-                     "field in the domain.")
-               .byDefault("1e-3")
-               .above(0)
-               .below(1))
-      .add(quantityKey("time.steady.time", units::time,
-                       "Time over which changes are counted. Absent: the residence time, which is what is in the "
-                       "domain over what flows through it; without a flow through it the domain's size over its RMS "
-                       "velocity, or over the conduction of heat where that is faster.")
-               .optional()
-               .above(0))
-      .add(choiceKey("time.steady.norm", {"maximum", "rms"},
-                     "maximum: the change of the cell that changes most counts; rms: the root of the mean square over "
-                     "the domain, which a small part that moves to and fro does not keep up.")
-               .byDefault("maximum"))
-      .add(quantityKey("time.steady.after", units::time,
-                       "Time before which the run does not end: until what boundaries do over time is over, or "
-                       "something slow has begun.")
-               .byDefault("0 s")
-               .atLeast(0));
+void addConvectionAndOutput(DeckSchema& schema) {
   schema.add(
       choiceKey("convection.velocity", {"limited", "central"},
                 "How the flow carries its velocity. limited: upwind of second order, of first where the flow is "
@@ -399,7 +319,8 @@ DeckSchema flowSchema() {
   addInitial(schema);
   addGravity(schema);
   addRadiationKeys(schema);
-  addTimeAndOutput(schema);
+  flowcase::addTimeKeys(schema);
+  addConvectionAndOutput(schema);
   schema
       .add(booleanKey("chemistry.share_work", "Whether cells with costly chemistry are sent to less busy ranks.")
                .byDefault("true"))

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -65,7 +66,7 @@ void GivenFields::readFormulas(const Deck& deck, const std::string& section, con
                          const std::array values = inAxes(place, time, dimension);
                          return formula(std::span(values).first(dimension + 1));
                        },
-                       key};
+                       key, formula.has("t")};
     });
   }
 }
@@ -90,7 +91,7 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
                          const std::array values = inAxes(place, time, dimension);
                          return table->value(column, std::span(values).first(dimension + 1));
                        },
-                       key};
+                       key, table->dependsOn("t")};
     }
   });
 }
@@ -112,6 +113,10 @@ void GivenFields::sortOut(const Deck& deck, const Names& names, const Mechanism&
 FieldFunction GivenFields::find(const std::string& name) const {
   const auto field = fields_.find(name);
   return field == fields_.end() ? FieldFunction{} : field->second.value;
+}
+
+bool GivenFields::varyInTime() const {
+  return std::ranges::any_of(fields_, [](const auto& field) { return field.second.inTime; });
 }
 
 std::string GivenFields::keyOf(const std::string& name) const {

@@ -32,6 +32,8 @@ class GivenFields {
   [[nodiscard]] FieldFunction find(const std::string& name) const;
   // Temperature and mole fractions.
   [[nodiscard]] GasVariation gas() const { return {find("temperature"), moleFractions_}; }
+  // Whether any of them depends on time.
+  [[nodiscard]] bool varyInTime() const;
   // The key of the deck that gives the name.
   [[nodiscard]] std::string keyOf(const std::string& name) const;
 
@@ -43,6 +45,7 @@ class GivenFields {
   struct Field {
     FieldFunction value;
     std::string key;
+    bool inTime = false;
   };
   std::map<std::string, Field> fields_;
   std::vector<std::pair<std::size_t, FieldFunction>> moleFractions_;

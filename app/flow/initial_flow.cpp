@@ -172,10 +172,54 @@ void addInitialFlowKeys(DeckSchema& schema) {
                .optional());
 }
 
+std::vector<std::string> carriedNames(const FlowCase& flowCase) {
+  std::vector<std::string> names;
+  if (flowCase.carried)
+    for (const CarriedScalar& scalar : CarriedOperator::blockOf(*flowCase.carried, {}).scalars)
+      names.push_back(scalar.name);
+  return names;
+}
+
+InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, const FlowCase& flowCase,
+                              const std::vector<std::string>& scalars) {
+  if (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2)
+    throw InputError("an earlier run is laid over plane boxes only, without a floor or a ceiling of their own");
+  const Hdf5Reader results(file);
+  requireSameGeometry(results, flowCase.mesh.geometry);
+  requireCover(results, flowCase.mesh);
+  const std::string step = stepOf(results, time);
+  GridTable::Numbers numbers;
+  numbers.names = fieldNames(results, step, *flowCase.mechanism, scalars);
+  for (const std::string& name : numbers.names) numbers.columns.push_back(results.numbers(step + "/" + name));
+  const std::vector<double> velocity = results.numbers(step + "/velocity");
+  const std::vector<double> centres = results.numbers("/mesh/cellCentre");
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    numbers.names.push_back("velocity");
+    numbers.columns.push_back(component(velocity, 3, axis));
+    numbers.places.push_back(component(centres, 3, axis));
+  }
+  fillSolids(numbers);
+  const auto table = std::make_shared<GridTable>(
+      std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
+  std::size_t column = 0;
+  const auto next = [&]() -> FieldFunction {
+    return [table, at = column++](const Vector3& place, double) { return table->value(at, place); };
+  };
+  InitialFields fields;
+  if (isClosed(flowCase)) fields.thermodynamicPressure = thermodynamicPressure(results, step);
+  fields.gas.temperature = next();
+  for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)
+    // Advection leaves some slightly below zero.
+    fields.gas.moleFractions.emplace_back(
+        k, [value = next()](const Vector3& place, double t) { return std::max(value(place, t), 0.0); });
+  for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());
+  if (std::ranges::find(numbers.names, swirl) != numbers.names.end()) fields.swirl = next();
+  for (FieldFunction& velocityAlong : fields.velocity) velocityAlong = next();
+  return fields;
+}
+
 InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const std::vector<std::string>& scalars) {
   return deck.at(section + ".results", [&] {
-    if (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2)
-      throw InputError("an earlier run is laid over plane boxes only, without a floor or a ceiling of their own");
     std::filesystem::path file = deck.resolvePath(deck.string(section + ".results"));
     if (std::filesystem::is_directory(file)) {
       // Of a run that did not reach its end there is the part that it wrote.
@@ -183,38 +227,7 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
       file /= "results.h5";
       if (!std::filesystem::exists(file) && std::filesystem::exists(part)) file = part;
     }
-    const Hdf5Reader results(file);
-    requireSameGeometry(results, flowCase.mesh.geometry);
-    requireCover(results, flowCase.mesh);
-    const std::string step = stepOf(results, deck.optionalQuantity(section + ".time"));
-    GridTable::Numbers numbers;
-    numbers.names = fieldNames(results, step, *flowCase.mechanism, scalars);
-    for (const std::string& name : numbers.names) numbers.columns.push_back(results.numbers(step + "/" + name));
-    const std::vector<double> velocity = results.numbers(step + "/velocity");
-    const std::vector<double> centres = results.numbers("/mesh/cellCentre");
-    for (std::size_t axis = 0; axis < 2; ++axis) {
-      numbers.names.push_back("velocity");
-      numbers.columns.push_back(component(velocity, 3, axis));
-      numbers.places.push_back(component(centres, 3, axis));
-    }
-    fillSolids(numbers);
-    const auto table = std::make_shared<GridTable>(
-        std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
-    std::size_t column = 0;
-    const auto next = [&]() -> FieldFunction {
-      return [table, at = column++](const Vector3& place, double) { return table->value(at, place); };
-    };
-    InitialFields fields;
-    if (isClosed(flowCase)) fields.thermodynamicPressure = thermodynamicPressure(results, step);
-    fields.gas.temperature = next();
-    for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)
-      // Advection leaves some slightly below zero.
-      fields.gas.moleFractions.emplace_back(
-          k, [value = next()](const Vector3& place, double time) { return std::max(value(place, time), 0.0); });
-    for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());
-    if (std::ranges::find(numbers.names, swirl) != numbers.names.end()) fields.swirl = next();
-    for (FieldFunction& velocityAlong : fields.velocity) velocityAlong = next();
-    return fields;
+    return readEarlierFlow(file, deck.optionalQuantity(section + ".time"), flowCase, scalars);
   });
 }
 

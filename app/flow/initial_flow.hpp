@@ -1,6 +1,8 @@
 // The results of an earlier run of a flow, laid over the mesh of another.
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,5 +20,11 @@ void addInitialFlowKeys(DeckSchema& schema);
 // carries. InputError where the file holds no such results, or those of another geometry, a smaller domain, other
 // species or other scalars.
 InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const std::vector<std::string>& scalars);
+
+// The same of the results of a run, or the part of them that it wrote; `time` in s, nothing: the last output.
+InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, const FlowCase& flowCase,
+                              const std::vector<std::string>& scalars);
+// Names of what the case's model of particles carries.
+std::vector<std::string> carriedNames(const FlowCase& flowCase);
 
 }  // namespace lampblack::app::flowcase

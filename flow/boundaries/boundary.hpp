@@ -20,6 +20,7 @@ enum class BoundaryKind {
 struct BoundaryVariation {
   FieldFunction speed, tangential, swirl, heatFlux;
   GasVariation gas;
+  bool inTime = false;  // whether any of them depends on time
 
   [[nodiscard]] bool isEmpty() const { return !speed && !tangential && !swirl && !heatFlux && gas.isEmpty(); }
 };

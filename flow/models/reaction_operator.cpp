@@ -339,6 +339,11 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.shared("reaction_growth_in_step", growthInStep_);
 }
 
+void ReactionOperator::setRates(State& state, std::span<const double> rates) {
+  state.balance.reactions.assign(rates.begin(), rates.end());
+  std::ranges::fill(isLimited_, 0.0);
+}
+
 ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
   Diagnostics all = diagnostics_;
   double sums[7] = {all.solverSteps, all.integratedCells, all.skippedCells, all.handedOverCells,

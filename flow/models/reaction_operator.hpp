@@ -67,6 +67,8 @@ class ReactionOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
   Diagnostics takeDiagnostics();  // collective
+  // The rates of the state are these (kg/m3/s, species a cell), not those of a step that led to it.
+  void setRates(State& state, std::span<const double> rates);
 
   // Cells whose reactions grow by more than a factor of e within a step (GrowthRate), or have done so since they burn:
   // transport as a constant source would have them run away. A foot that stands grows little, and yet is as fast as it

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <string>
@@ -166,22 +167,25 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
   return sums.finish(std::isfinite(time) && time > 0.0 ? whole[0] / time : 0.0);
 }
 
-std::string residualText(const std::vector<ResidualNorm>& norms, int dimension) {
+std::vector<ResidualNorm> worstOfEachKind(const std::vector<ResidualNorm>& norms) {
   using Kind = ResidualNorm::Kind;
-  std::string text;
-  const auto add = [&](const ResidualNorm& norm) {
-    text += fmt::format("{}{} {:.1e}", text.empty() ? "" : ", ", norm.equation, norm.value);
-  };
-  for (const ResidualNorm& norm : norms) {
-    if (!std::isfinite(norm.value)) return {};
-    if (norm.kind == Kind::Flow) add(norm);
-  }
+  std::vector<ResidualNorm> found;
+  std::ranges::copy_if(norms, std::back_inserter(found), [](const auto& norm) { return norm.kind == Kind::Flow; });
   for (const Kind kind : {Kind::Species, Kind::Carried}) {
     const auto valueOf = [kind](const ResidualNorm& norm) { return norm.kind == kind ? norm.value : -1.0; };
     const auto worst = std::ranges::max_element(norms, {}, valueOf);
-    if (worst == norms.end() || worst->kind != kind) continue;
-    add(*worst);
-    text += fmt::format(" at {}", placeText(worst->place, dimension));
+    if (worst != norms.end() && worst->kind == kind) found.push_back(*worst);
+  }
+  return found;
+}
+
+std::string residualText(const std::vector<ResidualNorm>& norms, int dimension) {
+  std::string text;
+  for (const ResidualNorm& norm : worstOfEachKind(norms)) {
+    const bool isOfFlow = norm.kind == ResidualNorm::Kind::Flow;
+    if (isOfFlow && !std::isfinite(norm.value)) return {};
+    text += fmt::format("{}{} {:.1e}", text.empty() ? "" : ", ", norm.equation, norm.value);
+    if (!isOfFlow) text += fmt::format(" at {}", placeText(norm.place, dimension));
   }
   return text;
 }

@@ -32,6 +32,9 @@ struct ResidualNorm {
 [[nodiscard]] std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State& state,
                                                       const FlowResidual& residual, double time);
 
+// Of the flow each, then of the species the worst, then of what is carried.
+[[nodiscard]] std::vector<ResidualNorm> worstOfEachKind(const std::vector<ResidualNorm>& norms);
+
 // "mass 1.2e-07, ..., OH 3.1e-05 at (0.0012, 0.0034) m", of species and of what is carried the worst; empty where there
 // is no throughflow.
 [[nodiscard]] std::string residualText(const std::vector<ResidualNorm>& norms, int dimension);

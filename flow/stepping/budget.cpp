@@ -27,6 +27,10 @@ std::vector<ConservedQuantity> massAndElements(const Mechanism& mechanism,
 
 Budget::Budget(const FlowContext& context, std::vector<ConservedQuantity> quantities, const State& start)
     : context_(context), quantities_(std::move(quantities)) {
+  begin(start);
+}
+
+void Budget::begin(const State& start) {
   start_ = contents(start);
   inflow_.assign(quantities_.size(), 0.0);
   outflow_.assign(quantities_.size(), 0.0);

@@ -38,6 +38,7 @@ class Budget {
 
   Budget(const FlowContext& context, std::vector<ConservedQuantity> quantities, const State& start);  // collective
 
+  void begin(const State& start);          // collective; counts from this state on
   void saveOrLoad(StateArchive& archive);  // collective
 
   void addStep(const TransportOperator::BoundaryAmounts& amounts);  // local

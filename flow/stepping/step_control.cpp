@@ -210,7 +210,8 @@ std::vector<Quantity> StepControl::historyColumns() const {
       {"temperature_change", "K", "largest change of a cell's temperature in a step since the last row"},
       {"heat_release_change", "1",
        "largest change of a cell's heat release in a step since the last row, over the largest of any cell"},
-      {"heat_release", integralUnit(context_.mesh, "W"), "heat set free by the gas reactions in the last step"}};
+      {"heat_release", integralUnit(context_.mesh, "W"),
+       "heat set free by the gas reactions in the last step, after an iteration in the state"}};
   if (options_.tolerance)
     columns.push_back({"step_error", "1",
                        "largest change of a cell's temperature, relative, or of a mass fraction by the last sweep"});

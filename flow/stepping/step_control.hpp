@@ -10,6 +10,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,8 @@ class StepControl : public Operator {
   // NumericsError on all ranks, behind the last sweep, where the step has gone wrong.
   void advance(State& state, double time, double dt) override;
   void endStep(State& state) override;
+  // W/m3, of the owned cells: what the reactions of the state set free, where no step has led to it.
+  void setHeatRelease(std::span<const double> heat) { heat_.assign(heat.begin(), heat.end()); }
   void saveOrLoad(StateArchive& archive) override;
   [[nodiscard]] double largestStep(const State& state) override;
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
@@ -62,8 +65,8 @@ class StepControl : public Operator {
   double change_ = 0.0;                  // K, the largest of the last step
   double undershoot_ = 0.0;              // by how much the last step has taken a mass fraction (further) below zero
   double changeSinceRow_ = 0.0;          // K
-  std::vector<double> heat_;             // W/m3, that the last step's reactions have set free, of the owned cells
-  double largestHeat_ = 0.0;             // the largest of any cell
+  std::vector<double> heat_;  // W/m3, that the last step's reactions have set free, or the state's, of the owned cells
+  double largestHeat_ = 0.0;  // the largest of any cell
   // The largest change of it in a step since the last row, in units of the largest there was before or after.
   double heatChangeSinceRow_ = 0.0;
   struct Worst {

@@ -1,0 +1,256 @@
+// The section time of a flow's deck.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/flow/flow_case_parts.hpp"
+#include "app/tools/gas_input.hpp"
+
+namespace lampblack::app::flowcase {
+namespace {
+
+constexpr const char* mode = "time.mode";
+constexpr const char* section = "time.steady";
+
+std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase) {
+  if (!deck.has(section)) return {};
+  if (flowCase.ensembles)
+    throw deck.error(section,
+                     "ensembles in the cells fluctuate, and with them the gas: their fields never come to rest. Leave "
+                     "this out; averages that start by themselves tell when the soot has no trend "
+                     "(stochastic.statistics)");
+  return SteadyControl{deck.number("time.steady.tolerance"), deck.optionalQuantity("time.steady.time"),
+                       deck.quantity("time.steady.after"),
+                       deck.choice("time.steady.norm") == "rms" ? Steadiness::Norm::Rms : Steadiness::Norm::Maximum};
+}
+
+bool isSearched(const Deck& deck) {
+  return deck.choice(mode) == "steady";
+}
+
+// A vessel without an outlet keeps its mass, and what its gas is heated by its pressure. The equations of a state know
+// neither: where any of it can change, no residual tells of it.
+void requirePressure(const Deck& deck, const FlowCase& flowCase) {
+  const auto isOf = [](BoundaryKind kind) {
+    return [kind](const BoundaryCondition& boundary) { return boundary.kind == kind; };
+  };
+  if (std::ranges::any_of(flowCase.boundaries, isOf(BoundaryKind::Outlet))) return;
+  const Stream &low = flowCase.initial.low, &high = flowCase.initial.high;
+  const bool isOneGas = flowCase.initialFields.isEmpty() && low.temperature == high.temperature && low.Y == high.Y &&
+                        deck.choice("initial.layer") == "none";
+  const auto changes = [&](const BoundaryCondition& boundary) {
+    return boundary.kind == BoundaryKind::Inlet || boundary.heatFlux != 0.0 || boundary.varies.heatFlux ||
+           !boundary.varies.gas.isEmpty() || (boundary.isothermal && boundary.temperature != low.temperature);
+  };
+  if (!isOneGas || flowCase.radiation.on || std::ranges::any_of(flowCase.boundaries, changes))
+    throw deck.error(mode,
+                     "a vessel without an outlet, in which gas comes in or is heated, has a pressure that follows from "
+                     "what has happened in it, and not from its steady state alone; expected an outlet, or 'transient' "
+                     "with 'time.steady'");
+}
+
+TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    if (boundary.varies.inTime)
+      throw deck.error("boundaries." + boundary.name,
+                       "what this boundary has depends on the time t, and with it the flow, which then has no steady "
+                       "state; expected formulas and tables over place alone, or 'time.mode: transient'");
+  requirePressure(deck, flowCase);
+  if (deck.choice("convection.velocity") != "limited")
+    throw deck.error("convection.velocity",
+                     "a steady state is sought with 'limited'; expected that, or 'time.mode: "
+                     "transient' with two sweeps");
+  TimeControl::Search search;
+  if (!deck.has(section)) return search;
+  search.residual = deck.number("time.steady.residual");
+  search.iterations = deck.integer<int>("time.steady.iterations");
+  search.returns = deck.integer<int>("time.steady.returns");
+  search.coarserMeshes = deck.integer<int>("time.steady.coarser_meshes");
+  if (search.coarserMeshes > 0 && (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2))
+    throw deck.error("time.steady.coarser_meshes",
+                     "coarser meshes are made of plane boxes only, without a floor or a ceiling of their own; leave "
+                     "this out");
+  search.time = deck.optionalQuantity("time.steady.time");
+  return search;
+}
+
+}  // namespace
+
+void addTimeKeys(DeckSchema& schema) {
+  const std::vector<std::string> transient{"transient"}, steady{"steady"};
+  const SteadySearch::Options search;
+  schema
+      .add(choiceKey("time.mode", {"transient", "steady"},
+                     "transient: the flow in time, from the start to time.end; steady: the state of the flow that does "
+                     "not change any more, by steps in time until the flow is established, and iterations on the "
+                     "residual of its equations from there. Outlets, boundaries that do not depend on time, and no "
+                     "ensembles in the cells.")
+               .byDefault("transient"))
+      .add(quantityKey("time.end", units::time, "Time at which the run ends, from zero; a run in time needs it.")
+               .optional()
+               .above(0)
+               .onlyWith("time.mode", transient))
+      .add(quantityKey("time.first_step", units::time, "First time step.").byDefault("1 us").above(0))
+      .add(quantityKey("time.maximum_step", units::time, "Largest time step.").byDefault("1 ms").above(0))
+      .add(numberKey("time.courant", "Share of a cell's volume that may flow out in a step.")
+               .byDefault("0.5")
+               .above(0)
+               .atMost(1))
+      .add(integerKey(
+               "time.sweeps",
+               "Sweeps of deferred correction in a time step. 1: first order in time, for flames that become steady, "
+               "whose steady state is the same; 2: second order, at twice the cost, without the waves that one sweep "
+               "leaves in fast jets of little diffusion; more: smaller errors.")
+               .byDefault("1")
+               .atLeast(1)
+               .atMost(10)
+               .onlyWith("time.mode", transient))
+      .add(numberKey("time.tolerance",
+                     "Largest change by the last sweep that a time step may have in any cell, of the temperature "
+                     "(relative) and of a mass fraction; steps become as short as that needs, and no longer than the "
+                     "Courant number allows. Needs two sweeps; absent: the Courant number alone.")
+               .optional()
+               .above(0)
+               .below(1)
+               .onlyWith("time.mode", transient))
+      .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
+      .add(integerKey(
+               "time.retries",
+               "How often a time step that fails is tried again, each time with a quarter of its length, before "
+               "the run ends with its last good state and a checkpoint. Steps fail where a value is no number "
+               "any more, a temperature is out of range or colder than the start and all boundaries, more changes "
+               "than time.temperature_change and time.least_mass_fraction allow, or the pressure or a cell's "
+               "chemistry cannot be solved. "
+               "0: the first failure ends the run.")
+               .byDefault("4")
+               .atLeast(0)
+               .atMost(20))
+      .add(quantityKey("time.temperature_change", units::temperature,
+                       "Largest change of a cell's temperature in a time step. A step that changes one by more fails "
+                       "and is tried again, shorter, and the steps behind it become no longer than that needs.")
+               .byDefault("500 K")
+               .above(0))
+      .add(numberKey(
+               "time.least_mass_fraction",
+               "Most negative mass fraction that a time step may leave in a cell; one that leaves less, and has taken "
+               "it there by more than a tenth of this itself, fails and is tried again, shorter. Nothing is "
+               "clipped.")
+               .byDefault("-1e-4")
+               .below(0))
+      .add(quantityKey("time.wall_limit", units::time,
+                       "Wall time, from the start of the program, before whose end the run stops by itself as SIGTERM "
+                       "stops it: with its last state in the results and a checkpoint, from which `lampblack run "
+                       "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.")
+               .optional()
+               .above(0));
+  schema
+      .section(
+          section, Presence::optional,
+          "When a flow is steady. A run in time ends, before time.end, once over a whole residence time no field "
+          "(velocity, temperature, mass fractions, what particles are carried) has changed by more than the tolerance, "
+          "and the changes do not grow; absent: the run goes on to time.end; its closing report says how steady it "
+          "is in either case. With 'time.mode: steady' what is left of the equations counts. Not with ensembles in the "
+          "cells, which fluctuate.")
+      .add(numberKey("time.steady.tolerance",
+                     "Largest change of a field in any cell over a residence time, as a share of the range of the "
+                     "field in the domain.")
+               .byDefault("1e-3")
+               .above(0)
+               .below(1)
+               .onlyWith("time.mode", transient))
+      .add(quantityKey("time.steady.time", units::time,
+                       "Time over which changes are counted, and that makes residuals relative. Absent: the residence "
+                       "time, which is what is in the "
+                       "domain over what flows through it; without a flow through it the domain's size over its RMS "
+                       "velocity, or over the conduction of heat where that is faster.")
+               .optional()
+               .above(0))
+      .add(choiceKey("time.steady.norm", {"maximum", "rms"},
+                     "maximum: the change of the cell that changes most counts; rms: the root of the mean square over "
+                     "the domain, which a small part that moves to and fro does not keep up.")
+               .byDefault("maximum")
+               .onlyWith("time.mode", transient))
+      .add(quantityKey("time.steady.after", units::time,
+                       "Time before which the run does not end: until what boundaries do over time is over, or "
+                       "something slow has begun.")
+               .byDefault("0 s")
+               .atLeast(0)
+               .onlyWith("time.mode", transient))
+      .add(numberKey("time.steady.residual",
+                     "Residual below which the flow is steady: what is left of the rates of each equation, summed over "
+                     "the cells, as a share of what goes through the domain or is made in it.")
+               .byDefault(fmt::format("{}", search.residual))
+               .above(0)
+               .below(1)
+               .onlyWith("time.mode", steady))
+      .add(integerKey("time.steady.iterations",
+                      "Iterations after which a search that has not come to its end is given up.")
+               .byDefault(fmt::format("{}", search.iterations))
+               .atLeast(1)
+               .atMost(1e6)
+               .onlyWith("time.mode", steady))
+      .add(integerKey("time.steady.returns",
+                      "How often the search may go back from iterations that do not converge to steps in time, twice "
+                      "as many each time, before it is given up.")
+               .byDefault(fmt::format("{}", search.returns))
+               .atLeast(0)
+               .atMost(20)
+               .onlyWith("time.mode", steady))
+      .add(integerKey("time.steady.coarser_meshes",
+                      "Number of coarser meshes, each of half the cells of the next in every direction (of a plane "
+                      "box), on which the steady state is sought first: what is found on one is the start on the next. "
+                      "A run that is stopped on one of them begins anew.")
+               .byDefault("0")
+               .atLeast(0)
+               .atMost(5)
+               .onlyWith("time.mode", steady));
+}
+
+void requireModeOfParticles(const Deck& deck) {
+  if (!isSearched(deck)) return;
+  for (const char* ensembles : {"stochastic", "particles"})
+    if (deck.has(ensembles))
+      throw deck.error(mode,
+                       "ensembles in the cells fluctuate, and with them the gas: they have averages, and no steady "
+                       "state. Seek that of the gas with a model of soot, or without, and start from its results with "
+                       "ensembles in time ('initial.flow')");
+}
+
+void readTime(const Deck& deck, FlowCase& flowCase) {
+  TimeControl& time = flowCase.time;
+  if (isSearched(deck)) {
+    time.search = readSearch(deck, flowCase);
+    time.end = std::numeric_limits<double>::infinity();
+  } else {
+    time.end = neededQuantity(deck, "time", "end", "a run in time");
+    time.tolerance = deck.optionalNumber("time.tolerance");
+    time.steady = readSteady(deck, flowCase);
+    flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
+  }
+  time.firstStep = deck.quantity("time.first_step");
+  time.maximumStep = deck.quantity("time.maximum_step");
+  time.growth = deck.number("time.growth");
+  time.retries = deck.integer<int>("time.retries");
+  time.wallLimit = deck.optionalQuantity("time.wall_limit");
+  time.temperatureChange = deck.quantity("time.temperature_change");
+  time.leastMassFraction = deck.number("time.least_mass_fraction");
+  flowCase.flow.courant = deck.number("time.courant");
+  if (deck.choice("convection.velocity") == "central") {
+    flowCase.flow.velocityScheme = VelocityScheme::Central;
+    if (flowCase.flow.sweeps < 2)
+      throw deck.error("convection.velocity",
+                       "central convection is not stable in steps of one sweep; expected "
+                       "'time.sweeps: 2' or more");
+  }
+  if (flowCase.time.tolerance && flowCase.flow.sweeps < 2)
+    throw deck.error("time.tolerance",
+                     "the error of a step is what its last sweep corrects; expected 'sweeps: 2' or more");
+  if (flowCase.time.firstStep > flowCase.time.maximumStep)
+    throw deck.error("time.first_step", "expected no more than 'maximum_step'");
+}
+
+}  // namespace lampblack::app::flowcase

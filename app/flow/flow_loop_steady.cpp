@@ -1,0 +1,231 @@
+// The search for the steady state of a flow: what of it is steps in time and what iterations, and what it tells.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <numeric>
+
+#include "app/flow/flow_loop.hpp"
+#include "app/run/warnings.hpp"
+#include "core/errors.hpp"
+#include "core/first_error.hpp"
+#include "core/system_error.hpp"
+#include "io/json.hpp"
+
+namespace lampblack::app {
+namespace {
+
+enum Way { InTime, Iterating };
+
+// Adds the processor time of this rank until the end of the scope.
+class ProcessorTime {
+ public:
+  explicit ProcessorTime(double& seconds) : seconds_(seconds), start_(std::clock()) {}
+  ~ProcessorTime() { seconds_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+  ProcessorTime(const ProcessorTime&) = delete;
+  ProcessorTime& operator=(const ProcessorTime&) = delete;
+
+ private:
+  double& seconds_;
+  std::clock_t start_;
+};
+
+constexpr double firstStepBack = 0.1;  // of the last step in time, after iterations that are kept
+
+// "mass_fluxes" of "mass fluxes".
+std::string columnName(std::string equation) {
+  std::ranges::replace(equation, ' ', '_');
+  return "residual_" + equation;
+}
+
+}  // namespace
+
+double FlowLoop::totalHeatRelease() const {
+  double total = 0.0;
+  const std::vector<double> heat = heatRelease();
+  for (std::size_t c = 0; c < heat.size(); ++c) total += heat[c] * domain_->mesh.volume[c];
+  MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return total;
+}
+
+void FlowLoop::findNorms(const FlowResidual& residual) {
+  norms_ = residualNorms(domain_->context, domain_->state, residual, steadiness_.time());
+  normsOf_ = steps_;
+}
+
+double FlowLoop::largestNorm() const {
+  double largest = 0.0;
+  for (const ResidualNorm& norm : norms_)
+    largest = std::isfinite(norm.value) ? std::max(largest, norm.value) : INFINITY;
+  return largest;
+}
+
+void FlowLoop::searchOn(Outputs& outputs) {
+  if (search_->phase() == SteadySearch::Phase::Iterations) {
+    iterate(outputs);
+  } else {
+    const ProcessorTime scope(processorTime_[InTime]);
+    const std::int64_t retried = retried_;
+    stepInTime(outputs);
+    search_->addStep(totalHeatRelease(), retried_ != retried);
+    if (search_->wantsResidual()) {
+      const Timers::Scope timer(timers_, "monitoring");
+      if (!residual_)
+        residual_ =
+            std::make_unique<FlowResidual>(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
+      residual_->evaluate(domain_->state);
+      findNorms(*residual_);
+      search_->addResidualOfStep(largestNorm());
+    }
+  }
+  if (search_->isGivenUp()) giveUp(outputs);
+}
+
+void FlowLoop::makeIteration() {
+  iteration_ = std::make_unique<SteadyIteration>(
+      domain_->context, domain_->state, SteadyIteration::Options{.scheme = case_.flow.velocityScheme}, operators_);
+  backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
+}
+
+void FlowLoop::iterate(Outputs& outputs) {
+  const ProcessorTime scope(processorTime_[Iterating]);
+  if (!iteration_) makeIteration();
+  try {
+    SteadyIteration::Outcome outcome;
+    {
+      const Timers::Scope timer(timers_, "steady iterations");
+      outcome = iteration_->iterate(domain_->state);
+    }
+    ++steps_;
+    if (outcome.taken) {
+      checkStateAndRequests(outputs.checkpoints);
+      const FlowResidual& residual = iteration_->residual();
+      domain_->chemistry.setRates(domain_->state, residual.rates().made.reactions);
+      domain_->stepControl.setHeatRelease(heatRelease());
+      domain_->budget->begin(domain_->state);
+      findNorms(residual);
+      search_->addIteration(largestNorm(), totalHeatRelease());
+    } else {
+      search_->addFailure(outcome.why);
+    }
+  } catch (const NumericsError& error) {
+    if (domain_->mesh.ranks > 1 && !isCollective(error)) throw;
+    search_->endIterations(error.what());
+  }
+  if (search_->phase() == SteadySearch::Phase::Steps) goBack(outputs);
+}
+
+void FlowLoop::goBack(Outputs& outputs) {
+  iteration_.reset();
+  if (search_->takesBack()) {
+    restoreStepStart(time_, steps_);
+  } else {
+    resumeFromLoadedState();
+    dt_ *= firstStepBack;
+  }
+  normsOf_ = -1;
+  outputs.progress.finish();
+  if (!search_->isGivenUp())
+    printWarnings({fmt::format("step {}: iterations end and steps in time go on{}: {}", steps_,
+                               search_->takesBack() ? " from where they were" : "", search_->whyNot())});
+}
+
+void FlowLoop::giveUp(Outputs& outputs) {
+  std::string kept;
+  outputs.progress.finish();
+  if (steps_ % case_.output.historySteps == 0) writeRow(outputs.history);  // a row of the way, which the checkpoint has
+  try {
+    kept = saveLastState(outputs);
+  } catch (const SystemError& error) {
+    kept = fmt::format("the last state could not be kept: {}", error.what());
+  }
+  std::string rest = "its residual is not known";
+  const auto worst = std::ranges::max_element(norms_, {}, &ResidualNorm::value);
+  if (worst != norms_.end())
+    rest = fmt::format(
+        "the largest residual is that of {}, {:.2e} of what goes through, of which the cell at {} has "
+        "{:.2e}",
+        worst->equation, worst->value, placeText(worst->place, domain_->mesh.dimension), worst->largest);
+  raiseTogether(
+      comm_, NumericsError(fmt::format(
+                 "no steady state with residuals below {:.2g} was found in {} steps in time and {} iterations{}: {}. A "
+                 "flow that moves by itself has none: look at it in time (--restart with 'time.mode: transient' and "
+                 "'time.end'); else more iterations (time.steady.iterations, time.steady.returns) may find it, or "
+                 "smaller cells at that place; {}",
+                 search_->options().residual, search_->steps(), search_->iterations(),
+                 search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, kept)));
+}
+
+void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
+  search_->saveOrLoad(archive);
+  if (search_->phase() != SteadySearch::Phase::Iterations) return;
+  if (archive.loading()) {
+    domain_->state.updateHalo(domain_->halo);
+    makeIteration();
+  }
+  if (iteration_) iteration_->saveOrLoad(domain_->state, archive);
+}
+
+std::vector<Quantity> FlowLoop::searchColumns() const {
+  std::vector<Quantity> columns{{"iteration", "1", "iterations so far; of a row that is one, time stands still"}};
+  const auto add = [&](const std::string& equation, const std::string& what) {
+    columns.push_back({columnName(equation), "1", "what is left of " + what + ", of what goes through"});
+  };
+  add("mass", "the balance of mass");
+  add("mass fluxes", "the mass fluxes of the faces");
+  add("momentum", "the balance of momentum");
+  if (domain_->state.swirls) add("swirl", "the balance of angular momentum");
+  add("enthalpy", "the balance of enthalpy");
+  add("species", "the balance of the species that has most");
+  if (std::ranges::any_of(domain_->state.scalars, &CarriedScalar::isTransported))
+    add("carried", "the balance of the carried scalar that has most");
+  return columns;
+}
+
+std::vector<double> FlowLoop::searchValues() const {
+  std::vector<double> values{static_cast<double>(search_->iterations())};
+  if (normsOf_ == steps_)
+    for (const ResidualNorm& norm : worstOfEachKind(norms_)) values.push_back(norm.value);
+  values.resize(searchColumns().size(), std::numeric_limits<double>::quiet_NaN());
+  return values;
+}
+
+std::string FlowLoop::searchPlace() const {
+  if (iteration_) return fmt::format("step {:>6}  iteration {}", steps_, search_->iterations());
+  return fmt::format("step {:>6}  t {:.4g} s  dt {:.3g} s", steps_, time_, dt_);
+}
+
+std::vector<std::string> FlowLoop::searchLines() const {
+  const std::string back = search_->returns() > 0 ? fmt::format(", {} times back to steps", search_->returns()) : "";
+  const std::string first = search_->firstResidual() > 0.0
+                                ? fmt::format("{:.2e} before the first iteration, ", search_->firstResidual())
+                                : "";
+  return {fmt::format("{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s, and {} iterations{}; "
+                      "largest residual {}{:.2e} now",
+                      isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_,
+                      search_->iterations(), back, first, largestNorm()),
+          fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s",
+                      processorTime_[InTime], processorTime_[Iterating])};
+}
+
+void FlowLoop::tellSearch() {
+  MPI_Allreduce(MPI_IN_PLACE, processorTime_.data(), static_cast<int>(processorTime_.size()), MPI_DOUBLE, MPI_SUM,
+                comm_);
+  if (domain_->mesh.rank != 0) return;
+  for (const std::string& line : searchLines()) fmt::print("{}\n", line);
+}
+
+void FlowLoop::addSearch(JsonWriter& json) const {
+  json.key("search").beginObject();
+  json.field("steps_in_time", static_cast<std::int64_t>(search_->steps()));
+  json.field("iterations", static_cast<std::int64_t>(search_->iterations()));
+  json.field("returns_to_steps", static_cast<std::int64_t>(search_->returns()));
+  json.field("residual_before_iterations", search_->firstResidual()).field("last_residual", largestNorm());
+  json.field("processor_time_of_steps_s", processorTime_[InTime]);
+  json.field("processor_time_of_iterations_s", processorTime_[Iterating]);
+  json.endObject();
+}
+
+}  // namespace lampblack::app

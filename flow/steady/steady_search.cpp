@@ -1,0 +1,133 @@
+#include "flow/steady/steady_search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace lampblack::flow {
+namespace {
+
+// Steps in time: at least so many, doubled with each return, and at most some times that.
+constexpr int leastSteps = 50, mostSteps = 6;
+// A flow is established once the heat released has changed by less than a share over so many steps, none of which was
+// tried again.
+constexpr int quietSteps = 20;
+constexpr double quietHeat = 0.05;
+constexpr int stepsPerResidual = 10;
+// Iterations without a residual that is less than the best before by a share.
+constexpr int patience = 100;
+constexpr double gain = 0.9;
+constexpr int mostFailures = 8;  // one behind the other
+// Of the heat that iterations begin with; with less the flame has gone out in a time that is none.
+constexpr double leftOfHeat = 0.1;
+
+}  // namespace
+
+bool SteadySearch::wantsResidual() const {
+  return phase_ == Phase::Iterations || stepsNow_ % stepsPerResidual == 0;
+}
+
+bool SteadySearch::isEstablished() const {
+  const int least = leastSteps << std::min(returns_, 10);
+  if (stepsNow_ < least) return false;
+  if (stepsNow_ >= mostSteps * least) return true;
+  const auto [low, high] = std::ranges::minmax(heat_);
+  return undisturbed_ >= quietSteps && high - low <= quietHeat * std::max(std::abs(low), std::abs(high));
+}
+
+void SteadySearch::addStep(double heatRelease, bool wasRetried) {
+  takesBack_ = false;
+  ++steps_;
+  ++stepsNow_;
+  undisturbed_ = wasRetried ? 0 : undisturbed_ + 1;
+  heat_.push_back(heatRelease);
+  if (heat_.size() > static_cast<std::size_t>(quietSteps)) heat_.pop_front();
+}
+
+void SteadySearch::addResidualOfStep(double residual) {
+  latest_ = residual;
+  isSteady_ = residual <= options_.residual;
+  if (first_ > 0.0) least_ = std::min(least_, residual);
+  if (isSteady_ || !isEstablished()) return;
+  phase_ = Phase::Iterations;
+  if (!(first_ > 0.0)) first_ = least_ = residual;
+  began_ = best_ = residual;
+  heatAtBegin_ = heat_.back();
+  iterationsNow_ = bestAt_ = failures_ = 0;
+}
+
+void SteadySearch::addIteration(double residual, double heatRelease) {
+  ++iterations_;
+  ++iterationsNow_;
+  failures_ = 0;
+  latest_ = residual;
+  if (heatRelease < leftOfHeat * heatAtBegin_) {
+    goBack(fmt::format("the flame has gone out: {:.3g} W of {:.3g} W were left", heatRelease, heatAtBegin_));
+    takesBack_ = true;
+    return;
+  }
+  least_ = std::min(least_, residual);
+  isSteady_ = residual <= options_.residual;
+  if (isSteady_) return;
+  if (residual < gain * best_) {
+    best_ = residual;
+    bestAt_ = iterationsNow_;
+  }
+  if (iterationsNow_ - bestAt_ >= patience)
+    goBack(fmt::format("the residual has not fallen below {:.2e} in {} iterations", best_, patience));
+  else if (iterations_ >= options_.iterations)
+    isGivenUp_ = true;
+}
+
+void SteadySearch::addFailure(const std::string& why) {
+  ++iterations_;
+  ++iterationsNow_;
+  if (++failures_ >= mostFailures || iterations_ >= options_.iterations) goBack(why);
+}
+
+void SteadySearch::endIterations(const std::string& why) {
+  ++iterations_;
+  goBack(why);
+  takesBack_ = true;
+}
+
+void SteadySearch::goBack(const std::string& why) {
+  whyNot_ = why;
+  takesBack_ = !(latest_ < began_);
+  phase_ = Phase::Steps;
+  stepsNow_ = undisturbed_ = 0;
+  if (returns_ == options_.returns || iterations_ >= options_.iterations)
+    isGivenUp_ = true;
+  else
+    ++returns_;
+}
+
+double SteadySearch::progress() const {
+  if (isSteady_) return 1.0;
+  if (!(first_ > options_.residual) || !(least_ > 0.0)) return 0.0;
+  return std::clamp(std::log(first_ / least_) / std::log(first_ / options_.residual), 0.0, 1.0);
+}
+
+void SteadySearch::saveOrLoad(StateArchive& archive) {
+  std::vector<double> numbers{first_, least_, latest_, began_, heatAtBegin_, best_};
+  for (int* count :
+       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_})
+    numbers.push_back(*count);
+  numbers.push_back(phase_ == Phase::Iterations ? 1.0 : 0.0);
+  std::vector<double> heat(heat_.begin(), heat_.end());
+  archive.shared("steady_search", numbers);
+  archive.shared("steady_search_heat", heat);
+  if (!archive.loading()) return;
+  std::size_t next = 0;
+  for (double* value : {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_}) *value = numbers.at(next++);
+  for (int* count :
+       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_})
+    *count = static_cast<int>(numbers.at(next++));
+  phase_ = numbers.at(next) != 0.0 ? Phase::Iterations : Phase::Steps;
+  heat_.assign(heat.begin(), heat.end());
+  isSteady_ = latest_ > 0.0 && latest_ <= options_.residual;
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,79 @@
+// The way to the steady state of a flow, as a plan that is told what came of each part: steps in time, which light a
+// flame and are robust, until it is established; from there iterations on the residual, which need a thousandth of the
+// time that the flow takes to come to rest; and where these do not converge steps in time again, longer each time (as
+// Newton's method and steps in time alternate for one-dimensional flames: Kee, Grcar, Smooke, Miller 1985).
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "core/modules.hpp"
+#include "core/state_archive.hpp"
+
+namespace lampblack::flow {
+
+class SteadySearch {
+ public:
+  struct Options {
+    double residual = 1e-7;  // of each equation, of its throughflow (ResidualNorm), below which the flow is steady
+    int iterations = 1000;   // in all, before the search is given up
+    int returns = 5;         // from iterations that fail to steps in time, before the search is given up
+  };
+  enum class Phase { Steps, Iterations };
+
+  explicit SteadySearch(const Options& options) : options_(options) {}
+
+  [[nodiscard]] Phase phase() const { return phase_; }
+  [[nodiscard]] bool isSteady() const { return isSteady_; }
+  // Whether iterations and returns are used up.
+  [[nodiscard]] bool isGivenUp() const { return isGivenUp_; }
+  // Whether the residual of the state after the last step has to be told before the next.
+  [[nodiscard]] bool wantsResidual() const;
+  // Whether the iterations that have just ended in vain left nothing to go on from: the flow is then to be what it was
+  // before the first of them.
+  [[nodiscard]] bool takesBack() const { return takesBack_; }
+
+  // What came of a step in time: heat that reactions release in the domain (W, or per metre of depth or radian), and
+  // whether the step was tried more than once.
+  void addStep(double heatRelease, bool wasRetried);
+  // The largest residual of any equation, of the state that the steps have led to.
+  void addResidualOfStep(double residual);
+  // What came of an iteration that was taken.
+  void addIteration(double residual, double heatRelease);
+  // An iteration that was not taken, and why; the next may be, as it tries less.
+  void addFailure(const std::string& why);
+  // The iterations cannot go on, and the state is not to be relied on.
+  void endIterations(const std::string& why);
+
+  [[nodiscard]] const Options& options() const { return options_; }
+  [[nodiscard]] int iterations() const { return iterations_; }
+  [[nodiscard]] int steps() const { return steps_; }
+  [[nodiscard]] int returns() const { return returns_; }
+  // With which the first iterations began; zero before.
+  [[nodiscard]] double firstResidual() const { return first_; }
+  // How far the residual has fallen since then, of what it has to fall on a logarithmic scale: 0 to 1.
+  [[nodiscard]] double progress() const;
+  // Why the last iterations ended in vain; empty where none did.
+  [[nodiscard]] const std::string& whyNot() const { return whyNot_; }
+
+  void saveOrLoad(StateArchive& archive);
+
+ private:
+  [[nodiscard]] bool isEstablished() const;
+  void goBack(const std::string& why);
+
+  Options options_;
+  Phase phase_ = Phase::Steps;
+  bool isSteady_ = false, isGivenUp_ = false, takesBack_ = false;
+  int steps_ = 0, iterations_ = 0, returns_ = 0;
+  int stepsNow_ = 0;                                 // of the present phase
+  std::deque<double> heat_;                          // W, of the last steps, the present at the back
+  int undisturbed_ = 0;                              // steps since one that was tried again
+  double first_ = 0.0, least_ = 0.0, latest_ = 0.0;  // residuals: of the first iterations' begin, since, the last
+  // Of the present iterations: the residual and the heat that they began with, the least residual since, when it was.
+  double began_ = 0.0, heatAtBegin_ = 0.0, best_ = 0.0;
+  int iterationsNow_ = 0, bestAt_ = 0, failures_ = 0;  // failures one behind the other
+  std::string whyNot_;
+};
+
+}  // namespace lampblack::flow

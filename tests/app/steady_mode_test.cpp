@@ -1,0 +1,200 @@
+// A deck with `time: {mode: steady}`: what is found, what is written, how it ends where nothing is found, and that a
+// run goes on from a checkpoint as if it had not stopped.
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/flow/flow_loop.hpp"
+#include "core/errors.hpp"
+#include "core/modules.hpp"
+#include "io/checkpoint_folder.hpp"
+#include "io/hdf5_reader.hpp"
+#include "tests/app/app_fixture.hpp"
+#include "tests/core/mpi_support.hpp"
+#include "tests/shared_scratch.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Warm gas into a channel with a cold wall.
+Deck channel(const std::vector<std::string>& overrides) {
+  return Deck::parse(
+      "problem: flow\n"
+      "mechanism: " +
+          test::sourcePath("cases/mechanisms/perfect_gas_1.yaml") + "\n" + R"(
+mesh: {geometry: planar, x: [{to: 4 mm, cells: 5}], y: [{to: 8 mm, cells: 8}]}
+boundaries:
+  in: {type: inlet, side: y-min, velocity: 30 cm/s, temperature: 400 K, composition: "GAS: 1"}
+  out: {type: outlet, side: y-max, temperature: 300 K, composition: "GAS: 1"}
+  cold: {type: wall, side: x-min, temperature: 300 K}
+  adiabatic: {type: wall, side: x-max}
+initial: {layer: none, composition: "GAS: 1", temperature: 300 K}
+)",
+      "channel.yaml", overrides, flowSchema());
+}
+
+// Fails in the step, or the iteration, of this number.
+class FailsFrom : public Operator {
+ public:
+  explicit FailsFrom(double time) : time_(time) {}
+  [[nodiscard]] const char* name() const override { return "fault"; }
+  void advance(State&, double time, double) override {
+    if (time < time_) return;
+    collectively(MPI_COMM_WORLD, [] { throw NumericsError("made to fail"); });
+  }
+
+ private:
+  double time_;
+};
+
+RunRecord runChannel(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                     const std::optional<std::filesystem::path>& restart = {}, Operator* more = nullptr) {
+  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(channel(overrides)));
+  if (more != nullptr) loop.addOperator(*more);
+  if (restart) loop.load(newestCheckpoint(MPI_COMM_WORLD, *restart));
+  loop.run(RunFolder::prepare(path, false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
+  RunRecord record;
+  loop.report(1.0, record);
+  return record;
+}
+
+const std::string steady = "time.mode=steady";
+
+std::vector<double> lastOf(const Hdf5Reader& results, const std::string& field) {
+  return results.numbers("/steps/" + results.names("/steps").back() + "/" + field);
+}
+
+TEST(SteadyMode, FindsTheStateThatALongRunInTimeEndsIn) {
+  const test::SharedScratchFolder scratch;
+  const RunRecord found = runChannel(scratch.path() / "found", {steady, "time.steady.residual=1e-9"});
+  runChannel(scratch.path() / "marched", {"time.end=0.3 s", "output.history_steps=100"});
+  const Hdf5Reader results(scratch.path() / "found/results.h5"), marched(scratch.path() / "marched/results.h5");
+  for (const char* field : {"temperature", "velocity"}) {
+    const std::vector<double> a = lastOf(results, field), b = lastOf(marched, field);
+    const auto [low, high] = std::ranges::minmax(b);
+    for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-6 * (high - low)) << field << ' ' << i;
+  }
+  // In less time than the flow needs: 0.028 s are a residence time.
+  const std::vector<double> time = results.numbers("/history/time"), iteration = results.numbers("/history/iteration"),
+                            dt = results.numbers("/history/dt"),
+                            enthalpy = results.numbers("/history/residual_enthalpy");
+  EXPECT_LT(time.back(), 0.1);
+  EXPECT_GT(iteration.back(), 0.0);
+  EXPECT_LE(enthalpy.back(), 1e-9);
+  for (std::size_t row = 1; row < time.size(); ++row) {
+    // A row is a step in time or an iteration.
+    const double iterations = iteration[row] - iteration[row - 1];
+    EXPECT_TRUE(iterations == 0.0 || iterations == 1.0) << row;
+    EXPECT_EQ(iterations == 1.0, time[row] == time[row - 1]) << row;
+    EXPECT_EQ(iterations == 1.0, dt[row] == 0.0) << row;
+  }
+  EXPECT_EQ(results.names("/steps").size(), 2U);
+  EXPECT_THAT(found.resultsJson, AllOf(HasSubstr("\"steady\": true"), HasSubstr("\"iterations\": "),
+                                       HasSubstr("\"residual_before_iterations\": ")));
+}
+
+TEST(SteadyMode, WhereNothingIsFoundTheStateIsKeptToGoOnFrom) {
+  const test::SharedScratchFolder scratch;
+  const auto out = scratch.path() / "out";
+  const std::string message = test::messageOf<NumericsError>([&] {
+    runChannel(out, {steady, "time.steady.residual=1e-9", "time.steady.iterations=2"});
+  });
+  EXPECT_THAT(message, AllOf(HasSubstr("no steady state with residuals below 1e-09 was found in 50 steps in time and 2 "
+                                       "iterations"),
+                             HasSubstr("the largest residual is that of "), HasSubstr("time.steady.iterations"),
+                             HasSubstr("time.mode: transient"), HasSubstr("--restart goes on from ")));
+  EXPECT_TRUE(test::sameOnAllRanks(message));
+  const Hdf5Reader kept(out / "results.h5.part");
+  EXPECT_EQ(kept.numbers("/history/iteration").back(), 2.0);
+  EXPECT_EQ(kept.names("/steps").size(), 2U);
+  // In time too, whose history has not the same columns.
+  const double time = kept.numbers("/history/time").back();
+  runChannel(scratch.path() / "on", {"time.end=" + std::to_string(time + 1e-3) + " s"}, out);
+  const Hdf5Reader on(scratch.path() / "on/results.h5");
+  EXPECT_FALSE(on.has("/history/iteration"));
+  EXPECT_EQ(on.numbers("/history/time").at(51), time);
+}
+
+void expectSameRun(const std::filesystem::path& found, const std::filesystem::path& expected) {
+  const Hdf5Reader a(found / "results.h5"), b(expected / "results.h5");
+  EXPECT_EQ(lastOf(a, "temperature"), lastOf(b, "temperature"));
+  EXPECT_EQ(lastOf(a, "velocity"), lastOf(b, "velocity"));
+  for (const std::string& column : b.names("/history")) {
+    const std::vector<double> one = a.numbers("/history/" + column), other = b.numbers("/history/" + column);
+    ASSERT_EQ(one.size(), other.size()) << column;
+    for (std::size_t row = 0; row < one.size(); ++row)
+      ASSERT_TRUE(one[row] == other[row] || (std::isnan(one[row]) && std::isnan(other[row]))) << column << ' ' << row;
+  }
+}
+
+TEST(SteadyMode, GoesOnFromACheckpointAsIfItHadNotStopped) {
+  const test::SharedScratchFolder scratch;
+  const std::vector<std::string> settings{steady, "time.steady.residual=1e-6", "chemistry.share_work=false"};
+  runChannel(scratch.path() / "whole", settings);
+  // Stopped in the steps in time.
+  std::vector<std::string> failing = settings;
+  failing.emplace_back("time.retries=0");
+  FailsFrom fault(1e-3);
+  EXPECT_THROW(runChannel(scratch.path() / "steps", failing, {}, &fault), NumericsError);
+  runChannel(scratch.path() / "steps on", settings, scratch.path() / "steps");
+  expectSameRun(scratch.path() / "steps on", scratch.path() / "whole");
+  // And in the iterations.
+  std::vector<std::string> few = settings;
+  few.emplace_back("time.steady.iterations=3");
+  EXPECT_THROW(runChannel(scratch.path() / "iterations", few), NumericsError);
+  runChannel(scratch.path() / "iterations on", settings, scratch.path() / "iterations");
+  expectSameRun(scratch.path() / "iterations on", scratch.path() / "whole");
+}
+
+struct Refused {
+  const char* name;
+  std::vector<std::string> settings;
+  const char* message;
+};
+class SteadyModeRefuses : public testing::TestWithParam<Refused> {};
+
+TEST_P(SteadyModeRefuses, WithWhatToDo) {
+  std::vector<std::string> settings{steady};
+  settings.insert(settings.end(), GetParam().settings.begin(), GetParam().settings.end());
+  EXPECT_THAT(test::messageOf<InputError>([&] { readFlowCase(channel(settings)); }), HasSubstr(GetParam().message));
+}
+
+const char* const closed = "boundaries.out={type: wall, side: y-max}";
+const char* const noInlet = "boundaries.in={type: wall, side: y-min, tangential_velocity: 1 m/s}";
+const char* const noCold = "boundaries.cold={type: wall, side: x-min}";
+
+INSTANTIATE_TEST_SUITE_P(
+    Decks, SteadyModeRefuses,
+    testing::Values(
+        Refused{"AnEnd", {"time.end=1 s"}, "time.end: 'time.mode: steady' does not have this"},
+        Refused{"Sweeps", {"time.sweeps=2"}, "time.sweeps: 'time.mode: steady' does not have this"},
+        Refused{"AToleranceOfTime", {"time.steady.tolerance=0.1"}, "time.steady.tolerance: 'time.mode: steady'"},
+        Refused{"Outputs", {"output.interval=1 s"}, "output.interval: 'time.mode: steady' does not have this"},
+        Refused{"CentralConvection", {"convection.velocity=central"}, "convection.velocity: a steady state is sought"},
+        Refused{"AFormulaOfTime",
+                {"boundaries.cold.formula.tangential_velocity='0.1*sin(t)'"},
+                "boundaries.cold: what this boundary has depends on the time t"},
+        Refused{"Ensembles", {"stochastic.exchange=one_way"}, "time.mode: ensembles in the cells fluctuate"},
+        Refused{"AVesselThatIsFilled", {closed}, "time.mode: a vessel without an outlet"},
+        Refused{"AVesselThatIsCooled", {closed, noInlet, "boundaries.cold.temperature=299 K"}, "a vessel without"},
+        Refused{
+            "AVesselThatIsHeated", {closed, noInlet, noCold, "boundaries.adiabatic.heat_flux=1 W/m^2"}, "a vessel"}),
+    [](const auto& refused) { return std::string(refused.param.name); });
+
+TEST(SteadyMode, TakesWhatHasASteadyState) {
+  EXPECT_NO_THROW(readFlowCase(channel({steady, "boundaries.cold.formula.tangential_velocity='0.1*sin(y)'"})));
+  // Stirred gas of one temperature keeps its pressure.
+  const FlowCase stirred = readFlowCase(channel({steady, closed, noInlet, "time.steady.time=1 s"}));
+  EXPECT_EQ(stirred.time.steadyTime(), 1.0);
+  EXPECT_TRUE(std::isinf(stirred.time.end));
+  const FlowCase usual = readFlowCase(channel({steady, "time.steady={}"}));
+  EXPECT_EQ(usual.time.search->residual, SteadySearch::Options().residual);
+  EXPECT_EQ(usual.time.search->iterations, SteadySearch::Options().iterations);
+  EXPECT_EQ(readFlowCase(channel({"time.end=1 s"})).time.search, std::nullopt);
+}
+
+}  // namespace
+}  // namespace lampblack::app

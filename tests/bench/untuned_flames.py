@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""Steady states of twenty flames from their decks alone, with all defaults of `time: {mode: steady}`: nobody has tuned them.
+
+Usage: untuned_flames.py PROGRAM FOLDER [--seconds N] [NAME...]
+
+Writes the decks into the folder, runs those that are named (all without names), each for N seconds at most, and prints a row of
+docs/verification.md each: what came of it, steps in time, iterations, returns to steps, largest residual, processor seconds.
+"""
+
+import argparse
+import json
+import pathlib
+import subprocess
+
+MECHANISMS = pathlib.Path(__file__).resolve().parents[2] / "cases/mechanisms"
+M = {"H2": "hydrogen_h2o2_10", "CH4": "methane_drm19_21", "C2H4": "ethylene_bisetti2012_47"}
+AIR = "O2: 0.21, N2: 0.79"
+
+def coflow(name, fuel, mix=None, p=1, uf=0.06, ua=0.12, rf=5, tube=False, gravity=True, air=AIR):
+    mix = mix or f"{fuel}: 1"
+    rim, cells = (0.6, 2) if tube else (0, 0)
+    r = [f"{{to: {rf} mm, cells: 10}}"] + ([f"{{to: {rf + rim} mm, cells: 2}}"] if tube else []) + \
+        [f"{{to: {2 * rf} mm, cells: 7, ratio: 2}}", f"{{to: {3 * rf} mm, cells: 4, ratio: 2}}"]
+    z0 = 3 if tube else 0
+    z = ([f"{{to: {z0} mm, cells: 4}}"] if tube else []) + [f"{{to: {z0 + 4 * rf} mm, cells: 24}}", f"{{to: {z0 + 9 * rf} mm, cells: 14, ratio: 2}}"]
+    solids = f"  solids: {{tube: {{r: [{rf} mm, {rf + rim} mm], z: [0 mm, {z0} mm]}}}}\n" if tube else ""
+    tube_b = "  tube: {type: wall, solid: tube, temperature: 400 K}\n" if tube else ""
+    return name, f"""problem: flow
+mechanism: {MECHANISMS}/{M[fuel]}.yaml
+pressure: {p} bar
+{'gravity: {z: -9.81 m/s^2}' if gravity else ''}
+mesh:
+  geometry: axisymmetric
+  r: [{', '.join(r)}]
+  z: [{', '.join(z)}]
+{solids}boundaries:
+  fuel: {{type: inlet, side: z-min, to: {rf} mm, velocity: {uf} m/s, temperature: 298 K, composition: "{mix}"}}
+  air: {{type: inlet, side: z-min, from: {rf + rim} mm, velocity: {ua} m/s, temperature: 298 K, composition: "{air}"}}
+{tube_b}  axis: {{type: symmetry, side: r-min}}
+  shroud: {{type: wall, side: r-max, slip: true}}
+  top: {{type: outlet, side: z-max, temperature: 298 K, composition: "{air}"}}
+initial:
+  layer: none
+  composition: "{air}"
+  temperature: 298 K
+  formula: {{temperature: "298 + 1700*exp(-((r-{(rf + rim / 2) / 1000})^2 + (z-{(z0 + 0.6 * rf) / 1000})^2)/{0.6 * rf / 1000}^2)"}}
+time: {{mode: steady}}
+"""
+
+def counterflow(name, fuel, mix=None, p=1, u=0.3, gap=10, air=AIR):
+    mix = mix or f"{fuel}: 1"
+    return name, f"""problem: flow
+mechanism: {MECHANISMS}/{M[fuel]}.yaml
+pressure: {p} bar
+mesh:
+  geometry: axisymmetric
+  r: [{{to: 8 mm, cells: 10}}, {{to: 12 mm, cells: 5}}]
+  z: [{{to: {gap} mm, cells: 50}}]
+boundaries:
+  fuel: {{type: inlet, side: z-min, to: 8 mm, velocity: {u} m/s, temperature: 298 K, composition: "{mix}"}}
+  air: {{type: inlet, side: z-max, to: 8 mm, velocity: {u} m/s, temperature: 298 K, composition: "{air}"}}
+  fuel_flange: {{type: wall, side: z-min, from: 8 mm}}
+  air_flange: {{type: wall, side: z-max, from: 8 mm}}
+  axis: {{type: symmetry, side: r-min}}
+  outflow: {{type: outlet, side: r-max, temperature: 298 K, composition: "N2: 1"}}
+initial: {{low: fuel, high: air, position: {gap / 2} mm, width: {gap / 4} mm}}
+time: {{mode: steady}}
+"""
+
+def premixed(name, fuel, mix, p=1, u=0.4, T=298):
+    return name, f"""problem: flow
+mechanism: {MECHANISMS}/{M[fuel]}.yaml
+pressure: {p} bar
+mesh:
+  geometry: axisymmetric
+  r: [{{to: 8 mm, cells: 8}}, {{to: 12 mm, cells: 4}}]
+  z: [{{to: 8 mm, cells: 64}}]
+boundaries:
+  fresh: {{type: inlet, side: z-min, to: 8 mm, velocity: {u} m/s, temperature: {T} K, composition: "{mix}"}}
+  rim: {{type: wall, side: z-min, from: 8 mm}}
+  plate: {{type: wall, side: z-max, temperature: 600 K}}
+  axis: {{type: symmetry, side: r-min}}
+  outflow: {{type: outlet, side: r-max, temperature: 298 K, composition: "N2: 1"}}
+initial: {{layer: none, composition: "N2: 1", temperature: 1900 K}}
+time: {{mode: steady}}
+"""
+
+
+FLAMES = dict([
+    coflow("01_coflow_methane", "CH4"),
+    coflow("02_coflow_methane_tube", "CH4", tube=True),
+    coflow("03_coflow_methane_fast_air", "CH4", ua=0.4),
+    coflow("04_coflow_methane_half_bar", "CH4", p=0.5),
+    coflow("05_coflow_methane_3_bar", "CH4", p=3, uf=0.03, ua=0.06),
+    coflow("06_coflow_methane_no_gravity", "CH4", uf=0.2, ua=0.2, gravity=False),
+    coflow("07_coflow_methane_partially_premixed", "CH4", mix="CH4: 0.4, O2: 0.126, N2: 0.474", uf=0.1),
+    coflow("08_coflow_ethylene", "C2H4", uf=0.04, ua=0.1),
+    coflow("09_coflow_hydrogen", "H2", mix="H2: 0.5, N2: 0.5", uf=0.3, ua=0.3),
+    coflow("10_coflow_hydrogen_tube", "H2", mix="H2: 0.5, N2: 0.5", uf=0.3, ua=0.3, tube=True),
+    coflow("11_coflow_hydrogen_10_bar", "H2", mix="H2: 0.3, N2: 0.7", uf=0.1, ua=0.1, p=10, rf=2),
+    counterflow("12_counterflow_hydrogen", "H2", mix="H2: 0.5, N2: 0.5"),
+    counterflow("13_counterflow_hydrogen_strained", "H2", mix="H2: 0.5, N2: 0.5", u=2),
+    counterflow("14_counterflow_hydrogen_5_bar", "H2", mix="H2: 0.5, N2: 0.5", p=5),
+    counterflow("15_counterflow_methane", "CH4"),
+    counterflow("16_counterflow_methane_strained", "CH4", u=0.8),
+    counterflow("17_counterflow_ethylene", "C2H4", u=0.2),
+    premixed("18_plate_methane", "CH4", "CH4: 0.095, O2: 0.19, N2: 0.715", u=0.5),
+    premixed("19_plate_hydrogen", "H2", "H2: 0.25, O2: 0.157, N2: 0.593", u=1.5),
+    premixed("20_plate_methane_2_bar", "CH4", "CH4: 0.085, O2: 0.192, N2: 0.723", u=0.4, p=2),
+])
+
+
+def row(folder: pathlib.Path, name: str, code: int) -> str:
+    """What came of a run, from its record."""
+    record = json.loads((folder / name / "run.json").read_text(encoding="utf-8"))
+    if code != 0:
+        return f"| {name} | {'stopped by the limit' if code < 0 else f'exit {code}'} | {record['message'][:200]} |"
+    results = record["results"]
+    search = results["search"]
+    how = "at once" if search["returns_to_steps"] == 0 else "after going back"
+    return (f"| {name} | {how} | {search['steps_in_time']} | {search['iterations']} | {search['returns_to_steps']} | "
+            f"{search['last_residual']:.1e} | {search['processor_time_of_steps_s']:.0f} + {search['processor_time_of_iterations_s']:.0f} |")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("folder", type=pathlib.Path)
+    parser.add_argument("--seconds", type=float, default=300)
+    parser.add_argument("names", nargs="*", choices=[[], *FLAMES])
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    for name, deck in FLAMES.items():
+        (options.folder / f"{name}.yaml").write_text(deck, encoding="utf-8")
+    for name in options.names or FLAMES:
+        command = [options.program, "run", options.folder / f"{name}.yaml", "--out", options.folder / name, "--force"]
+        with open(options.folder / f"{name}.log", "w", encoding="utf-8") as log, \
+                subprocess.Popen(command, stdout=log, stderr=log) as run:
+            try:
+                code = run.wait(options.seconds)
+            except subprocess.TimeoutExpired:
+                run.terminate()
+                run.wait()
+                code = -1
+        print(row(options.folder, name, code), flush=True)
+
+
+if __name__ == "__main__":
+    main()

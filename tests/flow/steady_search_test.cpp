@@ -1,0 +1,192 @@
+// The plan of a search for a steady state: when it iterates, when it goes back to steps in time, how it ends.
+#include "flow/steady/steady_search.hpp"
+
+#include <gmock/gmock.h>
+
+#include "core/modules.hpp"
+#include "core/state_backup.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+using Phase = SteadySearch::Phase;
+using testing::HasSubstr;
+
+constexpr double high = 0.1;  // a residual far from any end
+
+// Takes steps of this heat until iterations begin, at most so many; how many it took.
+int steps(SteadySearch& search, double heat = 1.0, int most = 10000) {
+  for (int step = 1; step <= most; ++step) {
+    search.addStep(heat, false);
+    if (search.wantsResidual()) search.addResidualOfStep(high);
+    if (search.phase() == Phase::Iterations) return step;
+  }
+  return most;
+}
+
+TEST(SteadySearch, IteratesOnceTheHeatReleaseIsQuiet) {
+  SteadySearch still({});
+  EXPECT_EQ(steps(still), 50);
+  EXPECT_EQ(still.steps(), 50);
+  EXPECT_EQ(still.firstResidual(), high);
+
+  // A flame that grows by 1 % a step is not established, and is taken as it is in the end.
+  SteadySearch growing({});
+  int count = 0;
+  for (double heat = 1.0; growing.phase() == Phase::Steps; heat *= 1.01, ++count) {
+    growing.addStep(heat, false);
+    if (growing.wantsResidual()) growing.addResidualOfStep(high);
+  }
+  EXPECT_EQ(count, 300);
+
+  // What was more than 20 steps ago does not count.
+  SteadySearch lit({});
+  steps(lit, 10.0, 30);
+  EXPECT_EQ(30 + steps(lit), 50);
+
+  // A step that was tried again is none of a quiet flow.
+  SteadySearch disturbed({});
+  steps(disturbed, 1.0, 45);
+  disturbed.addStep(1.0, true);
+  EXPECT_EQ(45 + 1 + steps(disturbed), 70);
+}
+
+TEST(SteadySearch, EndsWhereTheResidualIsLowEnough) {
+  SteadySearch byIterations({.residual = 1e-6});
+  steps(byIterations);
+  byIterations.addIteration(1.1e-6, 1.0);
+  EXPECT_FALSE(byIterations.isSteady());
+  EXPECT_NEAR(byIterations.progress(), 0.99, 0.01);
+  byIterations.addIteration(1e-6, 1.0);
+  EXPECT_TRUE(byIterations.isSteady());
+  EXPECT_EQ(byIterations.progress(), 1.0);
+  EXPECT_EQ(byIterations.iterations(), 2);
+
+  SteadySearch bySteps({.residual = 1e-6});
+  for (int step = 0; step < 10; ++step) bySteps.addStep(1.0, false);
+  bySteps.addResidualOfStep(0.9e-6);
+  EXPECT_TRUE(bySteps.isSteady());
+  EXPECT_EQ(bySteps.phase(), Phase::Steps);
+}
+
+TEST(SteadySearch, GoesBackToTwiceAsManyStepsEachTimeAndIsGivenUp) {
+  SteadySearch search({.returns = 2});
+  EXPECT_EQ(steps(search), 50);
+  search.endIterations("no pressure");
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_EQ(search.whyNot(), "no pressure");
+  EXPECT_TRUE(search.takesBack());
+  EXPECT_EQ(steps(search), 100);
+  EXPECT_FALSE(search.takesBack());
+  search.addIteration(0.5 * high, 1.0);
+  search.endIterations("no pressure again");
+  EXPECT_TRUE(search.takesBack());
+  EXPECT_FALSE(search.isGivenUp());
+  EXPECT_EQ(steps(search), 200);
+  search.endIterations("no pressure at last");
+  EXPECT_TRUE(search.isGivenUp());
+  EXPECT_EQ(search.returns(), 2);
+  EXPECT_EQ(search.iterations(), 4);
+}
+
+TEST(SteadySearch, GoesBackAfterFailuresOneBehindTheOther) {
+  SteadySearch search({});
+  steps(search);
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i < 7; ++i) search.addFailure("too much");
+    EXPECT_EQ(search.phase(), Phase::Iterations);
+    if (round == 0) search.addIteration(0.5 * high, 1.0);
+  }
+  search.addFailure("too much again");
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_EQ(search.whyNot(), "too much again");
+  EXPECT_FALSE(search.takesBack());  // what the iteration has gained is kept
+  EXPECT_EQ(search.iterations(), 16);
+}
+
+TEST(SteadySearch, GoesBackWhereTheResidualStandsStill) {
+  SteadySearch search({});
+  steps(search);
+  for (int i = 0; i < 99; ++i) search.addIteration(0.95 * high, 1.0);
+  EXPECT_EQ(search.phase(), Phase::Iterations);
+  search.addIteration(0.89 * high, 1.0);  // just in time
+  for (int i = 0; i < 99; ++i) search.addIteration(0.88 * high, 1.0);
+  EXPECT_EQ(search.phase(), Phase::Iterations);
+  search.addIteration(0.88 * high, 1.0);
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_FALSE(search.takesBack());
+  EXPECT_THAT(search.whyNot(), HasSubstr("8.90e-02 in 100 iterations"));
+}
+
+TEST(SteadySearch, AFlameThatGoesOutIsNoSteadyState) {
+  SteadySearch search({.residual = 1e-3});
+  steps(search, 20.0);
+  search.addIteration(1e-2, 2.1);
+  EXPECT_EQ(search.phase(), Phase::Iterations);
+  search.addIteration(1e-4, 1.9);
+  EXPECT_FALSE(search.isSteady());
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_TRUE(search.takesBack());
+  EXPECT_THAT(search.whyNot(), HasSubstr("gone out"));
+}
+
+TEST(SteadySearch, IsGivenUpAfterItsIterations) {
+  SteadySearch search({.iterations = 3});
+  steps(search);
+  for (int i = 0; i < 2; ++i) search.addIteration(high / (2 + i), 1.0);
+  EXPECT_FALSE(search.isGivenUp());
+  search.addIteration(high / 4, 1.0);
+  EXPECT_TRUE(search.isGivenUp());
+  EXPECT_EQ(search.phase(), Phase::Iterations);  // from where another run may go on
+}
+
+// By what a checkpoint has.
+void pass(SteadySearch& from, SteadySearch& to) {
+  StateBackup kept(0, 0);
+  kept.save([&](StateArchive& archive) { from.saveOrLoad(archive); });
+  kept.restore([&](StateArchive& archive) { to.saveOrLoad(archive); });
+}
+
+TEST(SteadySearch, WhatWasFoundIsFoundButForATighterLimit) {
+  SteadySearch found({.residual = 1e-6}), again({.residual = 1e-6}), tighter({.residual = 1e-8});
+  steps(found);
+  found.addIteration(1e-7, 1.0);
+  ASSERT_TRUE(found.isSteady());
+  pass(found, again);
+  pass(found, tighter);
+  EXPECT_TRUE(again.isSteady());
+  EXPECT_FALSE(tighter.isSteady());
+  EXPECT_EQ(tighter.phase(), Phase::Iterations);
+}
+
+// At any point of the way.
+TEST(SteadySearch, GoesOnFromWhatWasSavedAsIfNothingHadBeen) {
+  for (const int until : {3, 47, 62, 74, 160}) {
+    SCOPED_TRACE(until);
+    const auto advance = [](SteadySearch& search, int from, int to) {
+      for (int i = from; i < to; ++i)
+        if (search.phase() == Phase::Iterations && i >= 70 && i < 78) {
+          search.addFailure("too much");
+        } else if (search.phase() == Phase::Iterations) {
+          search.addIteration(0.97 * high, 1.0);
+        } else {
+          search.addStep(i == 35 ? 2.0 : 1.0, i == 10);
+          if (search.wantsResidual()) search.addResidualOfStep(high);
+        }
+    };
+    SteadySearch whole({}), first({}), second({});
+    advance(whole, 0, 400);
+    advance(first, 0, until);
+    pass(first, second);
+    advance(second, until, 400);
+    EXPECT_EQ(second.phase(), whole.phase());
+    EXPECT_EQ(second.steps(), whole.steps());
+    EXPECT_EQ(second.iterations(), whole.iterations());
+    EXPECT_EQ(second.returns(), whole.returns());
+    EXPECT_EQ(second.progress(), whole.progress());
+    EXPECT_GT(whole.returns(), 1);
+  }
+}
+
+}  // namespace
+}  // namespace lampblack::flow
