@@ -112,6 +112,16 @@ const std::array registry{
                      .values = &State::carriedDiffusivity,
                      .archived = "carried_diffusivity",
                      .isInHalo = true},
+    FieldDeclaration{.name = "eddy_viscosity",
+                     .unit = "Pa s",
+                     .description = "dynamic viscosity by turbulence, beside that of the molecules",
+                     .kind = Kind::Intensive,
+                     .width = Width::Eddies,
+                     .values = &State::eddyViscosity,
+                     .archived = "eddy_viscosity",
+                     .isInHalo = true,
+                     .isWritten = true,
+                     .isChecked = true},
     FieldDeclaration{.name = "mass_flux",
                      .unit = "kg/s",
                      .description = "of the gas through each face, per radian or metre of depth",
@@ -140,6 +150,12 @@ const std::array registry{
                      .kind = Kind::Rate,
                      .width = Width::Carried,
                      .rates = &State::Balance::carried},
+    FieldDeclaration{.name = "carried_sink",
+                     .unit = "1/s",
+                     .description = "of the carried scalars by their owners, in proportion to what there is",
+                     .kind = Kind::Rate,
+                     .width = Width::Carried,
+                     .rates = &State::Balance::carriedSink},
 };
 
 }  // namespace
@@ -160,6 +176,8 @@ int FieldDeclaration::widthIn(const State& state) const {
       return state.carriedCount();
     case Width::Swirl:
       return state.swirls ? 1 : 0;
+    case Width::Eddies:
+      return state.hasEddies ? 1 : 0;
   }
   return 0;
 }

@@ -18,8 +18,9 @@ struct FieldDeclaration {
   // Where the values stand and what they are: of each local cell, independent of its size or per volume; of each face,
   // what flows through it; of each owned cell, what operators bring per volume and time.
   enum class Kind { Intensive, PerVolume, FaceFlux, Rate };
-  // Values of each: one, the axes of the mesh, the species, the carried scalars; one where the flow swirls, else none.
-  enum class Width { One, Dimension, Species, Carried, Swirl };
+  // Values of each: one, the axes of the mesh, the species, the carried scalars; one where the flow swirls or
+  // has eddies, else none.
+  enum class Width { One, Dimension, Species, Carried, Swirl, Eddies };
 
   const char* name;  // in results; in messages with blanks
   const char* unit;

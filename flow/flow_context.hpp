@@ -19,6 +19,11 @@
 
 namespace lampblack::flow {
 
+// Numbers by which eddies mix heat, and species with what else the gas carries, less well than momentum.
+struct EddyNumbers {
+  double prandtl = 0.9, schmidt = 0.9;
+};
+
 struct FlowContext {
   const Mesh& mesh;
   HaloExchange& halo;
@@ -33,6 +38,7 @@ struct FlowContext {
   std::shared_ptr<BoundaryValues> varying = nullptr;  // null where no boundary varies over place or time
   TransportModel transportModel{};                    // `transport` has its averaged() options
   std::vector<double> wallDistance{};                 // m, of the owned cells; empty where nobody asks
+  EddyNumbers eddies{};
 
   [[nodiscard]] const BoundaryCondition& boundaryOf(int face) const {
     return boundaries[mesh.patch[face - mesh.interiorFaces]];

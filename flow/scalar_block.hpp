@@ -27,6 +27,10 @@ struct CarriedScalar {
   double thermophoresis = 0.0;
   // false: its owner moves what it stands for, and sets it anew in every step; transport leaves it as it is.
   bool isTransported = true;
+  // Eddies spread it by the turbulent Schmidt number. false: its owner's diffusivity has all there is.
+  bool isStirred = true;
+  // Its diffusivity at walls that hold it, over the kinematic viscosity there; 0: it is that of the cell.
+  double wallDiffusivity = 0.0;
   // In the order of FlowContext::boundaries. Empty: nothing comes in with the gas, and nothing passes through walls.
   std::vector<ScalarBoundary> boundaries = {};
 };
@@ -34,6 +38,7 @@ struct CarriedScalar {
 struct ScalarBlock {
   std::string owner;
   std::vector<CarriedScalar> scalars;
+  bool givesEddies = false;  // its owner sets State::eddyViscosity
 };
 
 // Where the block of an owner stands among all carried scalars.

@@ -14,6 +14,7 @@ State::State(const Mesh& mesh, std::size_t speciesCount, const std::vector<Scala
       throw std::logic_error("two blocks of carried scalars of " + block.owner);
     blocks.push_back({block.owner, carriedCount(), static_cast<int>(block.scalars.size())});
     scalars.insert(scalars.end(), block.scalars.begin(), block.scalars.end());
+    hasEddies = hasEddies || block.givesEddies;
   }
   for (const FieldDeclaration& field : fieldRegistry())
     field.of(*this).assign(
@@ -46,7 +47,8 @@ void State::Balance::exchange(std::size_t cell, std::size_t species, double rate
 }
 
 void State::Balance::clear() {
-  for (std::vector<double>* rates : {&exchanged, &enthalpy, &carried}) std::fill(rates->begin(), rates->end(), 0.0);
+  for (std::vector<double>* rates : {&exchanged, &enthalpy, &carried, &carriedSink})
+    std::fill(rates->begin(), rates->end(), 0.0);
 }
 
 void State::keepStart() {

@@ -21,6 +21,7 @@ struct State {
   int species = 0;
   int dimension = 2;
   bool swirls = false;
+  bool hasEddies = false;
   std::vector<ScalarRange> blocks;                                         // of carried scalars, one behind the other
   std::vector<CarriedScalar> scalars;                                      // of all blocks
   [[nodiscard]] const ScalarRange& block(const std::string& owner) const;  // std::logic_error
@@ -36,6 +37,7 @@ struct State {
   std::vector<double> Y;                    // mass fractions of the gas, `species` a cell
   std::vector<double> carried;              // per m^3, carriedCount() a cell
   std::vector<double> carriedDiffusivity;   // m^2/s, carriedCount() a cell; set by the model that owns the scalar
+  std::vector<double> eddyViscosity;        // Pa s, set by the block that gives eddies; empty without: a laminar flow
 
   // What operators that are coupled to the transport stage did in the last sweep, as mean rates of the owned cells: the
   // transport stage takes them as sources, and they take its changes as theirs (ReactionOperator). Each adds
@@ -47,6 +49,9 @@ struct State {
     std::vector<double> exchanged;
     std::vector<double> enthalpy;  // W/m^3, of the gas
     std::vector<double> carried;   // per m^3 and s, carriedCount() a cell
+    // 1/s, carriedCount() a cell, not below zero: at which each is taken beside that, in proportion to what there is at
+    // the end of the step.
+    std::vector<double> carriedSink;
     // Of all species in a cell; the sum is mass that the gas gains.
     void ofSpecies(std::size_t cell, std::span<double> rate) const;
     // Adds to what is exchanged. A species not seen before gets its place.

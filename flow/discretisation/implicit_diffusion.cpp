@@ -136,7 +136,7 @@ ImplicitDiffusion::Result ImplicitDiffusion::solve(int fields, std::span<const d
 }
 
 std::vector<double> ImplicitDiffusion::radii(int fields, std::span<const double> inertia,
-                                             const Conductance& conductance) {
+                                             const Conductance& conductance, std::span<const double> sinks) {
   const Mesh& m = mesh_;
   std::vector<double> largest(static_cast<std::size_t>(fields), 0.0);
   std::array<int, width> group{};
@@ -158,8 +158,8 @@ std::vector<double> ImplicitDiffusion::radii(int fields, std::span<const double>
     for (int c = 0; c < m.owned; ++c)
       for (int k = 0; k < count; ++k) {
         const double neighbours = inside[c * width + k];
-        largest[first + k] =
-            std::max(largest[first + k], neighbours / (inertia[c] + beyond[c * width + k] + neighbours));
+        const double own = sinks.empty() ? inertia[c] : inertia[c] + sinks[c * fields + first + k];
+        largest[first + k] = std::max(largest[first + k], neighbours / (own + beyond[c * width + k] + neighbours));
       }
   }
   MPI_Allreduce(MPI_IN_PLACE, largest.data(), fields, MPI_DOUBLE, MPI_MAX, m.comm);
@@ -167,7 +167,7 @@ std::vector<double> ImplicitDiffusion::radii(int fields, std::span<const double>
 }
 
 void ImplicitDiffusion::begin(Group& group, std::span<const int> fields, int all, std::span<const double> change,
-                              const Conductance& conductance) {
+                              const Conductance& conductance, std::span<const double> sinks) {
   const Mesh& m = mesh_;
   group.fields.assign(fields.begin(), fields.end());
   group.conductance.resize(static_cast<std::size_t>(m.faces) * width);
@@ -183,6 +183,9 @@ void ImplicitDiffusion::begin(Group& group, std::span<const int> fields, int all
     values->assign(static_cast<std::size_t>(m.owned) * width, 0.0);
   for (int c = 0; c < m.owned; ++c)
     for (std::size_t k = 0; k < fields.size(); ++k) group.residual[c * width + k] = change[c * all + fields[k]];
+  group.sinks.assign(sinks.empty() ? 0 : static_cast<std::size_t>(m.owned) * width, 0.0);
+  for (int c = 0; c < m.owned && !sinks.empty(); ++c)
+    for (std::size_t k = 0; k < fields.size(); ++k) group.sinks[c * width + k] = sinks[c * all + fields[k]];
 }
 
 // One iteration: the next change from the last one.
@@ -194,6 +197,12 @@ void ImplicitDiffusion::iterate(Group& group, std::span<const double> old, std::
     std::array<double, width> taken, diagonal;
     for (int k = 0; k < width; ++k) taken[k] = inertia[c] * own[k];
     diagonal.fill(inertia[c]);
+    if (!group.sinks.empty())
+      for (int k = 0; k < width; ++k) {
+        const double sink = group.sinks[c * width + k];
+        taken[k] += sink * own[k];
+        diagonal[k] += sink;
+      }
     for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
       const int face = m.faceOfCell[i];
       const float* g = &group.conductance[face * width];
@@ -219,9 +228,10 @@ void ImplicitDiffusion::iterate(Group& group, std::span<const double> old, std::
 
 ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const double> inertia,
                                                      const Conductance& conductance, std::span<double> change,
-                                                     double tolerance, int maxIterations) {
+                                                     double tolerance, int maxIterations,
+                                                     std::span<const double> sinks) {
   const Mesh& m = mesh_;
-  const std::vector<double> radius = radii(fields, inertia, conductance);
+  const std::vector<double> radius = radii(fields, inertia, conductance, sinks);
   std::vector<int> order(static_cast<std::size_t>(fields));
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, [&](int a, int b) { return radius[a] > radius[b]; });
@@ -239,7 +249,7 @@ ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::size_t begins = (first + i) * width;
       const std::span<const int> of{order.data() + begins, std::min<std::size_t>(width, order.size() - begins)};
-      begin(batch[i], of, fields, change, conductance);
+      begin(batch[i], of, fields, change, conductance, sinks);
       batch[i].iterations = iterationsFor(m.comm, radius[of.front()], tolerance, maxIterations);
       most = std::max(most, batch[i].iterations);
     }

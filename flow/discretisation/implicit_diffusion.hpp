@@ -43,10 +43,11 @@ class ImplicitDiffusion {
   //   inertia(P) d_k(P) + sum over all faces of conductance_k(f) (d_k(P) - d_k(N)) = rate_k(P),
   // beyond boundary faces no change. Fields that take alike many iterations go together, so that little memory is
   // needed and a heavy species ends long before hydrogen, whatever group it shares messages with. Collective.
-  // `inertia`: a owned cell, above zero; `change`: `fields` a cell, rates of owned cells in, changes out (halo filled).
-  // As above.
+  // `inertia`: a owned cell, above zero; `change`: `fields` a cell, rates of owned cells in, changes out (halo filled);
+  // `sinks`, not below zero: what each field's inertia has beside that, `fields` a owned cell; empty: nothing. As
+  // above.
   Result changes(int fields, std::span<const double> inertia, const Conductance& conductance, std::span<double> change,
-                 double tolerance = 1e-4, int maxIterations = 100000);
+                 double tolerance = 1e-4, int maxIterations = 100000, std::span<const double> sinks = {});
 
  private:
   static constexpr int width = 8;  // fields that go together
@@ -56,7 +57,8 @@ class ImplicitDiffusion {
     std::vector<double> radius, reduction;
   };
   [[nodiscard]] Targets targets(int fields, std::span<const double> source, double tolerance) const;
-  [[nodiscard]] std::vector<double> radii(int fields, std::span<const double> inertia, const Conductance& conductance);
+  [[nodiscard]] std::vector<double> radii(int fields, std::span<const double> inertia, const Conductance& conductance,
+                                          std::span<const double> sinks);
   // Fields that go together: `width` values a cell or face.
   struct Group {
     std::vector<int> fields;
@@ -65,9 +67,10 @@ class ImplicitDiffusion {
     // Single precision moves a solution by 1e-7 of the change that fluxes make; the fluxes that cells exchange are
     // evaluated from it with conductances of double precision.
     std::vector<float> conductance;
+    std::vector<double> sinks;  // empty without
   };
   void begin(Group& group, std::span<const int> fields, int all, std::span<const double> change,
-             const Conductance& conductance);
+             const Conductance& conductance, std::span<const double> sinks);
   void iterate(Group& group, std::span<const double> old, std::span<const double> fresh,
                std::span<const double> inertia);
 

@@ -55,11 +55,15 @@ void ObliqueDiffusion::addFlux(const State& state, const GasProperties& properti
     const double* lowY = &state.Y[static_cast<std::size_t>(low) * n];
     const double* highY = isInside ? &state.Y[static_cast<std::size_t>(high) * n] : context_.boundaryY(face).data();
     const double ofY = isInside ? w : 0.0;
+    double eddies = 0.0;
+    if (const std::vector<double>& of = properties.eddyDiffusivity; !of.empty())
+      eddies = w * of[low] + (1.0 - w) * of[high];
     double net = 0.0, sumY = 0.0;
     for (std::size_t k = 0; k < n; ++k) {
       const double y = ofY * lowY[k] + (1.0 - ofY) * highY[k];
       const double slope = isInside ? w * lowSlope_[k] + (1.0 - w) * highSlope_[k] : lowSlope_[k];
       flux_[k] = -m.area[face] * (w * lowD[k] + (1.0 - w) * highD[k]) * (slope + y * weightSlope);
+      if (eddies > 0.0) flux_[k] -= m.area[face] * eddies * slope;
       net += flux_[k];
       sumY += y;
     }

@@ -50,10 +50,25 @@ double CarriedTransport::driftToWall(const Gas& gas, int face) const {
 }
 
 // kg/s of gas: the conductance of diffusion to a wall or an inlet.
-double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, int face, int scalar) const {
+double CarriedTransport::wallDiffusion(const State& state, const Gas& gas, int face, int scalar) const {
   const Mesh& m = context_.mesh;
-  return faces.density[face] * m.area[face] / m.distance[face] *
-         state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
+  const double metric = m.area[face] / m.distance[face];
+  const double share = state.scalars[scalar].wallDiffusivity;
+  if (share > 0.0 && context_.boundaryOf(face).kind == BoundaryKind::Wall)
+    return metric * share * gas.properties.boundaryViscosity[face - m.interiorFaces];
+  return gas.faces.density[face] * metric * state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
+}
+
+const std::vector<double>& CarriedTransport::diffusivities(const State& state) const {
+  if (state.eddyViscosity.empty() || std::ranges::none_of(state.scalars, &CarriedScalar::isStirred))
+    return state.carriedDiffusivity;
+  diffusivity_ = state.carriedDiffusivity;
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < state.eddyViscosity.size(); ++c)
+    for (std::size_t s = 0; s < n; ++s)
+      if (state.scalars[s].isStirred)
+        diffusivity_[c * n + s] += state.eddyViscosity[c] / (context_.eddies.schmidt * state.density[c]);
+  return diffusivity_;
 }
 
 void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
@@ -77,7 +92,7 @@ void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
         for (int s = 0; s < n; ++s) {  // nothing flows through these
           if (!given[s].isHeld) continue;
           const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
-          const double share = outsideWallLayer(drift, wallDiffusion(state, gas.faces, face, s));
+          const double share = outsideWallLayer(drift, wallDiffusion(state, gas, face, s));
           if (share > 0.0) flux[s] = drift * share * gas.faces.carriedRiseToWall(face, s);
         }
       continue;
@@ -109,9 +124,11 @@ void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
       if (state.scalars[s].isTransported) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
 }
 
-void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces, std::span<double> conductance,
+void CarriedTransport::diffusiveFlux(const State& state, const Gas& gas, std::span<double> conductance,
                                      std::span<double> flux) const {
   const Mesh& m = context_.mesh;
+  const FaceState& faces = gas.faces;
+  const std::vector<double>& D = diffusivities(state);
   const int n = state.carriedCount();
   if (m.isOblique()) {
     perMass_.resize(static_cast<std::size_t>(m.cells) * n);
@@ -128,7 +145,7 @@ void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces,
       if (!given[s].isHeld) continue;
       const int i = m.low[face] * n + s;
       const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
-      const double diffusion = wallDiffusion(state, faces, face, s);
+      const double diffusion = wallDiffusion(state, gas, face, s);
       double& g = conductance[face * n + s];
       g = takenByWall(drift, diffusion);
       flux[face * n + s] =
@@ -141,7 +158,7 @@ void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces,
     const double metric = faces.density[face] * m.area[face] / m.distance[face];
     for (int s = 0; s < n; ++s) {
       double& g = conductance[face * n + s];
-      g = metric * (w * state.carriedDiffusivity[low * n + s] + (1.0 - w) * state.carriedDiffusivity[high * n + s]);
+      g = metric * (w * D[low * n + s] + (1.0 - w) * D[high * n + s]);
       flux[face * n + s] =
           g * (state.carried[low * n + s] / state.density[low] - state.carried[high * n + s] / state.density[high]);
       if (m.isOblique())
@@ -157,7 +174,7 @@ void CarriedTransport::presentFlux(const State& state, const Gas& gas, std::span
   convectiveFlux(state, gas);
   std::vector<double> conductance(flux.size());
   std::ranges::fill(flux, 0.0);
-  diffusiveFlux(state, gas.faces, conductance, flux);
+  diffusiveFlux(state, gas, conductance, flux);
   for (std::size_t i = 0; i < flux.size(); ++i) flux[i] += flux_[i];
 }
 
@@ -170,9 +187,10 @@ void CarriedTransport::addCrossed(std::span<const double> flux) {
 
 // From rates to changes. Each block by itself: how one is iterated does not depend on what is beside it.
 void CarriedTransport::solveChanges(const State& state, std::span<const double> inertia,
-                                    std::span<const double> conductance, std::span<double> change) {
+                                    std::span<const double> conductance, std::span<const double> sinks,
+                                    std::span<double> change) {
   const auto n = static_cast<std::size_t>(state.carriedCount()), cells = static_cast<std::size_t>(context_.mesh.cells);
-  std::vector<double> own;
+  std::vector<double> own, ownSinks;
   for (const ScalarRange& block : state.blocks) {
     const auto first = static_cast<std::size_t>(block.first), count = static_cast<std::size_t>(block.count);
     if (std::ranges::none_of(std::span(state.scalars).subspan(first, count), &CarriedScalar::isTransported)) continue;
@@ -182,8 +200,11 @@ void CarriedTransport::solveChanges(const State& state, std::span<const double> 
     };
     own.resize(cells * count);
     for (std::size_t c = 0; c < cells; ++c) std::copy_n(&change[c * n + first], count, &own[c * count]);
+    ownSinks.resize(sinks.empty() ? 0 : inertia.size() * count);
+    for (std::size_t c = 0; c < inertia.size() && !sinks.empty(); ++c)
+      std::copy_n(&sinks[c * n + first], count, &ownSinks[c * count]);
     // Particles see how much there is of them where there is next to nothing.
-    diffusion_.changes(block.count, inertia, through, own, 1e-8);
+    diffusion_.changes(block.count, inertia, through, own, 1e-8, 100000, ownSinks);
     for (std::size_t c = 0; c < cells; ++c) std::copy_n(&own[c * count], count, &change[c * n + first]);
   }
 }
@@ -196,23 +217,34 @@ void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, st
   std::vector<double> conductance(flux_.size());
   std::vector<double> flux(flux_.size(), 0.0), startFlux(flux_.size(), 0.0);
   if (&gas.start != &state) {
-    diffusiveFlux(gas.start, gas.faces, conductance, startFlux);
-    diffusiveFlux(state, gas.faces, conductance, flux);
+    diffusiveFlux(gas.start, gas, conductance, startFlux);
+    diffusiveFlux(state, gas, conductance, flux);
     for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = 0.5 * (startFlux[i] - flux[i]);
     addFaceFluxes(m, flux, n, dt, content);
     addCrossed(flux);
   }
-  diffusiveFlux(state, gas.faces, conductance, flux);
-  // At what rate the contents change by everything else and by the guess's diffusion.
+  diffusiveFlux(state, gas, conductance, flux);
+  // At what rate the contents change by everything else and by the guess's diffusion and sinks.
+  const std::vector<double>& sink = state.balance.carriedSink;
+  std::vector<double> sinks;  // kg/s
+  if (std::ranges::any_of(sink, [](double rate) { return rate != 0.0; })) sinks = sink;
   std::vector<double> inertia(static_cast<std::size_t>(m.owned));
   std::vector<double> perMass(static_cast<std::size_t>(m.cells) * n);
   for (int c = 0; c < m.owned; ++c) {
     inertia[c] = gas.newMass[c] / dt;
     for (int s = 0; s < n; ++s)
       perMass[c * n + s] = content[c * n + s] / dt - inertia[c] * state.carried[c * n + s] / state.density[c];
+    for (int s = 0; s < n && !sinks.empty(); ++s) {
+      sinks[c * n + s] *= gas.newMass[c];
+      perMass[c * n + s] -= sinks[c * n + s] * state.carried[c * n + s] / state.density[c];
+    }
   }
   addFaceFluxes(m, flux, n, 1.0, perMass);
-  solveChanges(state, inertia, conductance, perMass);
+  solveChanges(state, inertia, conductance, sinks, perMass);
+  for (std::size_t i = 0; i < sinks.size(); ++i) {
+    const std::size_t c = i / state.scalars.size();
+    content[i] -= dt * sinks[i] * (state.carried[i] / state.density[c] + perMass[i]);
+  }
   for (int face = 0; face < m.interiorFaces; ++face)
     for (int s = 0; s < n; ++s)
       flux[face * n + s] += conductance[face * n + s] * (perMass[m.low[face] * n + s] - perMass[m.high[face] * n + s]);

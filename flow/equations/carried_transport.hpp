@@ -2,6 +2,7 @@
 // limited scheme, explicit, then implicit diffusion; in several sweeps as the gas (TransportOperator). Gas that comes
 // in has what the boundary says (ScalarBoundary). Walls that hold a scalar have the flux of drift and diffusion to the
 // value there (flow/boundaries/wall_flux.hpp), implicit as diffusion is, and so have inlets, without drift.
+// What owners take in proportion to what there is (State::Balance::carriedSink) is implicit, too.
 #pragma once
 
 #include <span>
@@ -61,13 +62,15 @@ class CarriedTransport {
  private:
   void findDrift(const Gas& gas);
   [[nodiscard]] double driftToWall(const Gas& gas, int face) const;
-  [[nodiscard]] double wallDiffusion(const State& state, const FaceState& faces, int face, int scalar) const;
+  [[nodiscard]] double wallDiffusion(const State& state, const Gas& gas, int face, int scalar) const;
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
   void addCrossed(std::span<const double> flux);
   [[nodiscard]] bool hasDriftToWall(const FaceState& faces, int face) const;
   void solveChanges(const State& state, std::span<const double> inertia, std::span<const double> conductance,
-                    std::span<double> change);
+                    std::span<const double> sinks, std::span<double> change);
+  // m^2/s, scalars a local cell: their own and that of the eddies.
+  [[nodiscard]] const std::vector<double>& diffusivities(const State& state) const;
 
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;
@@ -75,6 +78,7 @@ class CarriedTransport {
   std::vector<double> flux_, driftFlux_;
   // Of what is carried per mass of gas, where steps are oblique to faces.
   mutable std::vector<double> perMass_, perMassGradient_;
+  mutable std::vector<double> diffusivity_;  // with that of the eddies; unused in laminar flow
   std::vector<BoundaryData> nothingPasses_;
 };
 

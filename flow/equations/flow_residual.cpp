@@ -34,7 +34,7 @@ FlowResidual::FlowResidual(const FlowContext& context, const State& state, Veloc
   rates_.momentum.resize(owned * static_cast<std::size_t>(state.dimension));
   if (state.swirls) rates_.angularMomentum.resize(owned);
   rates_.massFlux.resize(conducted_.size());
-  rates_.made = {std::vector<double>(owned * n), {}, {}, std::vector<double>(owned), rates_.carried};
+  rates_.made = {std::vector<double>(owned * n), {}, {}, std::vector<double>(owned), rates_.carried, rates_.carried};
 }
 
 const FlowResidual::Rates& FlowResidual::evaluate(const State& state) {
@@ -93,9 +93,9 @@ void FlowResidual::addMade(const State& state) {
       rates_.mass[cell] += m.volume[c] * row_[k];
     }
     rates_.enthalpy[cell] += m.volume[c] * rates_.made.enthalpy[cell];
-    for (std::size_t s = 0; s < scalars; ++s)
-      if (state.scalars[s].isTransported)
-        rates_.carried[cell * scalars + s] += m.volume[c] * rates_.made.carried[cell * scalars + s];
+    for (std::size_t i = cell * scalars; i < (cell + 1) * scalars; ++i)
+      if (state.scalars[i - cell * scalars].isTransported)
+        rates_.carried[i] += m.volume[c] * (rates_.made.carried[i] - rates_.made.carriedSink[i] * state.carried[i]);
   }
 }
 
@@ -114,8 +114,9 @@ void FlowResidual::addCarried(const State& state) {
 void FlowResidual::findForces(const State& state) {
   const Mesh& m = context_.mesh;
   const int d = state.dimension;
-  forces_.rates(state, {state, state, properties_.viscosity, properties_.boundaryViscosity, {}, 0.0}, rates_.momentum,
-                rates_.angularMomentum);
+  forces_.rates(state,
+                {state, state, properties_.effectiveViscosity(), properties_.effectiveBoundaryViscosity(), {}, 0.0},
+                rates_.momentum, rates_.angularMomentum);
   forces_.acceleration(state.density, acceleration_);
   std::vector<FieldView> known{{acceleration_, d}, {forces_.relaxation(), 1}};
   context_.halo.update(known);

@@ -46,18 +46,18 @@ void HeatConduction::findOblique(std::span<const double> temperature) {
 
 void HeatConduction::prepare(const State& state, const GasProperties& properties) {
   const Mesh& m = context_.mesh;
+  const std::vector<double>&conductivity = properties.effectiveConductivity(),
+        &atBoundary = properties.effectiveBoundaryConductivity();
   conductance_.assign(static_cast<std::size_t>(m.faces), 0.0);
   for (int face = 0; face < m.faces; ++face) {
     const int low = m.low[face];
     const double metric = m.area[face] / m.distance[face];
     if (m.high[face] >= 0) {
       const double w = m.lowWeight[face];
-      conductance_[face] =
-          metric * (w * properties.conductivity[low] + (1.0 - w) * properties.conductivity[m.high[face]]);
+      conductance_[face] = metric * (w * conductivity[low] + (1.0 - w) * conductivity[m.high[face]]);
       continue;
     }
-    if (context_.isTemperatureGiven(face))
-      conductance_[face] = metric * properties.boundaryConductivity[face - m.interiorFaces];
+    if (context_.isTemperatureGiven(face)) conductance_[face] = metric * atBoundary[face - m.interiorFaces];
   }
   if (m.isOblique()) findOblique(state.temperature);
 }

@@ -13,7 +13,7 @@ namespace lampblack::flow {
 struct MomentumSweep {
   const State& start;  // density; velocity before the step
   const State& mean;   // velocity and mass flux: means of `start` and of what the last sweep found
-  // Pa s, of `start`: of the cells, and of the gas between each boundary face and its cell.
+  // Pa s, effective, of `start`: of the cells, and of the gas between each boundary face and its cell.
   std::span<const double> viscosity, boundaryViscosity;
   std::span<const double> divergence;  // 1/s, owned cells: what the face velocities are to have
   double dt = 0.0;                     // s, from one velocity to the next

@@ -34,9 +34,34 @@ void SpeciesDiffusion::conductance(int face, std::span<const int> species, doubl
     const double share = context_.isCompositionGiven(face) ? metric : 0.0;
     for (std::size_t i = 0; i < species.size(); ++i) g[i] = share * low[species[i]];
   }
+  const std::vector<double>& eddies = properties_->eddyDiffusivity;
+  if (eddies.empty() || (m.high[face] < 0 && !context_.isCompositionGiven(face))) return;
+  for (std::size_t i = 0; i < species.size(); ++i) g[i] += metric * ofEddies(eddies, face);
 }
 
 bool SpeciesDiffusion::flux(const Coefficients& of, int face, std::span<const double> Y, std::span<double> row) const {
+  if (!molecularFlux(of, face, Y, row)) return false;
+  const std::vector<double>& eddies = of.ofStart.empty() ? properties_->eddyDiffusivity : of.eddiesOfStart;
+  if (eddies.empty()) return true;
+  const Mesh& m = context_.mesh;
+  const std::size_t n = row.size();
+  const bool isInside = m.high[face] >= 0;
+  const double* low = &Y[static_cast<std::size_t>(m.low[face]) * n];
+  const double* high = isInside ? &Y[static_cast<std::size_t>(m.high[face]) * n] : context_.boundaryY(face).data();
+  const double g = m.area[face] / m.distance[face] * ofEddies(eddies, face);
+  for (std::size_t k = 0; k < n; ++k) row[k] -= g * (high[k] - low[k]);
+  return true;
+}
+
+// kg/m/s, at a face.
+double SpeciesDiffusion::ofEddies(const std::vector<double>& eddies, int face) const {
+  const Mesh& m = context_.mesh;
+  const double w = m.lowWeight[face];
+  return m.high[face] < 0 ? eddies[m.low[face]] : w * eddies[m.low[face]] + (1.0 - w) * eddies[m.high[face]];
+}
+
+bool SpeciesDiffusion::molecularFlux(const Coefficients& of, int face, std::span<const double> Y,
+                                     std::span<double> row) const {
   const Mesh& m = context_.mesh;
   const std::size_t n = row.size();
   const bool isInside = m.high[face] >= 0;
@@ -91,7 +116,7 @@ void SpeciesDiffusion::prepare(const State& state, const GasProperties& properti
   std::vector<double> details(static_cast<std::size_t>(m.faces) * n, 0.0);
   if (context_.transportModel.isMulticomponent())
     for (int face = 0; face < m.faces; ++face) {
-      flux(face, state.Y, row_);
+      molecularFlux(now_, face, state.Y, row_);
       for (std::size_t k = 0; k < n; ++k) details[face * n + k] = -row_[k];
     }
   if (detailed_) detailed_->addFlux(state, properties, details);
@@ -102,6 +127,7 @@ void SpeciesDiffusion::prepare(const State& state, const GasProperties& properti
 void SpeciesDiffusion::keepStart() {
   start_ = now_;
   start_.ofStart = properties_->massDiffusivity;
+  start_.eddiesOfStart = properties_->eddyDiffusivity;
 }
 
 void SpeciesDiffusion::correct(std::span<const double> start, int face, double present, std::span<double> row) const {

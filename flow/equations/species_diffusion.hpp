@@ -60,11 +60,14 @@ class SpeciesDiffusion {
     std::vector<double> weightSlope;  // ln of the weights' ratio across a face
     // kg/s, species a face, what the detailed model and steps that are oblique to the faces add; empty without them.
     std::vector<double> ofDetails;
-    std::vector<double> ofStart;  // kg/m/s, species a cell; empty: diffusivities are those of the properties
+    std::vector<double> ofStart;        // kg/m/s, species a cell; empty: diffusivities are those of the properties
+    std::vector<double> eddiesOfStart;  // kg/m/s, a cell; as these
   };
 
   [[nodiscard]] const double* diffusivity(const Coefficients& of, int cell) const;
   bool flux(const Coefficients& of, int face, std::span<const double> Y, std::span<double> row) const;
+  bool molecularFlux(const Coefficients& of, int face, std::span<const double> Y, std::span<double> row) const;
+  [[nodiscard]] double ofEddies(const std::vector<double>& eddies, int face) const;
   // Half of the flux of the start's mass fractions plus `present` times that of the guess, which `row` holds.
   void correct(std::span<const double> start, int face, double present, std::span<double> row) const;
 

@@ -41,6 +41,31 @@ void GasProperties::update(const FlowContext& context, const State& state) {
     molecularWeight[cell] = context.thermo.meanMolecularWeight(Y);
   }
   updateBoundary(context, state);
+  if (!state.eddyViscosity.empty()) addEddies(context, state);
+}
+
+// Heat goes as enthalpy would through gases of one composition, species along the gradients of their mass fractions.
+void GasProperties::addEddies(const FlowContext& context, const State& state) {
+  const Mesh& m = context.mesh;
+  const auto cells = static_cast<std::size_t>(m.cells);
+  for (auto* ofCells : {&effectiveViscosity_, &effectiveConductivity_, &eddyDiffusivity}) ofCells->resize(cells);
+  for (std::size_t c = 0; c < cells; ++c) {
+    const double eddies = state.eddyViscosity[c];
+    effectiveViscosity_[c] = viscosity[c] + eddies;
+    effectiveConductivity_[c] = conductivity[c] + heatCapacity[c] * eddies / context.eddies.prandtl;
+    eddyDiffusivity[c] = eddies / context.eddies.schmidt;
+  }
+  effectiveBoundaryViscosity_ = boundaryViscosity;
+  effectiveBoundaryConductivity_ = boundaryConductivity;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const BoundaryCondition& boundary = context.boundaryOf(face);
+    if (boundary.kind == BoundaryKind::Wall && !boundary.slip) continue;
+    const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+    const auto cell = static_cast<std::size_t>(m.low[face]);
+    const double eddies = state.eddyViscosity[cell];
+    effectiveBoundaryViscosity_[b] += eddies;
+    effectiveBoundaryConductivity_[b] += heatCapacity[cell] * eddies / context.eddies.prandtl;
+  }
 }
 
 void GasProperties::updateBoundary(const FlowContext& context, const State& state) {

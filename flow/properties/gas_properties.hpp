@@ -1,4 +1,7 @@
-// Transport and thermodynamic properties of the gas in every local cell, halo included, and beside the boundaries.
+// Transport and thermodynamic properties of the gas in every local cell, halo included, and beside the boundaries: of
+// its molecules, and beside them what eddies add (State::eddyViscosity). Who means what molecules do (thermophoresis,
+// particles, what happens at walls) reads the members; momentum, heat and species diffuse by the effective ones, which
+// in a laminar flow are the very same arrays.
 #pragma once
 
 #include <optional>
@@ -26,8 +29,24 @@ struct GasProperties {
   std::vector<double> boundaryViscosity;     // Pa s
   std::vector<double> boundaryConductivity;  // W/m/K
 
-  // Evaluates all of it from the state's T, Y and density. Mass fractions below zero, which advection may leave at the
-  // size of its error, count as zero here.
+  // kg/m/s, of every species alike: what eddies add; empty in laminar flow.
+  std::vector<double> eddyDiffusivity;
+
+  // Molecular and turbulent together: Pa s, W/m/K. Eddies end at walls that the gas sticks to; at other boundaries they
+  // are those of the cell.
+  [[nodiscard]] const std::vector<double>& effectiveViscosity() const { return of(effectiveViscosity_, viscosity); }
+  [[nodiscard]] const std::vector<double>& effectiveConductivity() const {
+    return of(effectiveConductivity_, conductivity);
+  }
+  [[nodiscard]] const std::vector<double>& effectiveBoundaryViscosity() const {
+    return of(effectiveBoundaryViscosity_, boundaryViscosity);
+  }
+  [[nodiscard]] const std::vector<double>& effectiveBoundaryConductivity() const {
+    return of(effectiveBoundaryConductivity_, boundaryConductivity);
+  }
+
+  // Evaluates all of it from the state's T, Y, density and eddy viscosity. Mass fractions below zero, which advection
+  // may leave at the size of its error, count as zero here.
   void update(const FlowContext& context, const State& state);
 
  private:
@@ -37,9 +56,17 @@ struct GasProperties {
   // Of X_, which it finds from the mass fractions; D and DT_ receive the coefficients of diffusion.
   Coefficients evaluate(const FlowContext& context, double T, double p, std::span<const double> Y, std::span<double> D);
   void updateBoundary(const FlowContext& context, const State& state);
+  void addEddies(const FlowContext& context, const State& state);
+  [[nodiscard]] const std::vector<double>& of(const std::vector<double>& effective,
+                                              const std::vector<double>& molecular) const {
+    return eddyDiffusivity.empty() ? molecular : effective;
+  }
 
   std::optional<MulticomponentTransport> multicomponent_;
   std::vector<double> X_, D_, DT_;
+  // Empty in laminar flow.
+  std::vector<double> effectiveViscosity_, effectiveConductivity_, effectiveBoundaryViscosity_,
+      effectiveBoundaryConductivity_;
 };
 
 }  // namespace lampblack::flow

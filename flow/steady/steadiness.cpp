@@ -175,7 +175,7 @@ void Steadiness::add(const State& state, const GasProperties& properties, const 
     }
     whole[0] += mass;
     whole[2] += 0.5 * mass * squares;
-    whole[3] += properties.conductivity[c] / properties.heatCapacity[c] * m.volume[c];
+    whole[3] += properties.effectiveConductivity()[c] / properties.heatCapacity[c] * m.volume[c];
     hottest = std::max(hottest, state.temperature[c]);
   }
   for (auto face = static_cast<std::size_t>(m.interiorFaces); face < static_cast<std::size_t>(m.faces); ++face)
@@ -236,6 +236,7 @@ std::vector<double> Steadiness::scales(const State& state) const {
       case FieldDeclaration::Width::Swirl:
         return leastOfVelocity * lengthOfDomain() / timeOf(sums_);
       case FieldDeclaration::Width::One:
+      case FieldDeclaration::Width::Eddies:
         return leastOfValue * ends[2 * f];
       case FieldDeclaration::Width::Species:
         return leastMassFraction;

@@ -59,8 +59,10 @@ void TransportOperator::initialise(State& state, double dt) {
   momentum_.balanceForces(state);
   const std::vector<double> weight = state.pressure;
   // So short that nothing but the pressure changes the velocity; that of the blow is not kept.
-  momentum_.advance(state, {state, state, properties_.viscosity, properties_.boundaryViscosity, divergence, 1e-6 * dt},
-                    faceVelocity_);
+  momentum_.advance(
+      state,
+      {state, state, properties_.effectiveViscosity(), properties_.effectiveBoundaryViscosity(), divergence, 1e-6 * dt},
+      faceVelocity_);
   momentum_.endStep();
   state.pressure = weight;
   for (int face = 0; face < m.faces; ++face) {
@@ -78,7 +80,8 @@ void TransportOperator::keepStart(const State& state) {
       field.of(*start_) = {};
   mean_ = start_;
   startViscosity_ = properties_.viscosity;
-  startBoundaryViscosity_ = properties_.boundaryViscosity;
+  startEffectiveViscosity_ = properties_.effectiveViscosity();
+  startBoundaryViscosity_ = properties_.effectiveBoundaryViscosity();
   startHeatFlux_.resize(heat_.heat.size());
   speciesDiffusion_.keepStart();
   heatConduction_.presentFlux(state, startHeatFlux_);
@@ -298,8 +301,9 @@ void TransportOperator::advance(State& state, double time, double dt) {
 
   // Velocity, pressure and mass flux for exactly this diffusion.
   const auto divergence = expansion_.complete(state, properties_, content_, heat_, first);
-  const std::vector<double>& startViscosity = several ? startViscosity_ : properties_.viscosity;
-  const std::vector<double>& boundaryViscosity = several ? startBoundaryViscosity_ : properties_.boundaryViscosity;
+  const std::vector<double>& startViscosity = several ? startEffectiveViscosity_ : properties_.effectiveViscosity();
+  const std::vector<double>& boundaryViscosity =
+      several ? startBoundaryViscosity_ : properties_.effectiveBoundaryViscosity();
   const auto projected = momentum_.advance(
       state, {start, mean, startViscosity, boundaryViscosity, divergence, 0.5 * (lastStep_ + dt)}, faceVelocity_);
   diagnostics_.continuityError = projected.continuityError;

@@ -156,8 +156,9 @@ class TransportOperator : public Operator {
   std::optional<State> start_, mean_;
   std::vector<double> startHeatFlux_, diffused_;
   std::vector<double> solution_;                        // of the species' diffusion, species a cell
-  std::vector<double> startViscosity_, meanViscosity_;  // Pa s, cells
-  std::vector<double> startBoundaryViscosity_;          // Pa s, boundary faces
+  std::vector<double> startViscosity_, meanViscosity_;  // Pa s, cells, molecular
+  std::vector<double> startEffectiveViscosity_;         // Pa s, cells
+  std::vector<double> startBoundaryViscosity_;          // Pa s, boundary faces, effective
 
   // Of the owned cells as they are being advanced: kg, rho Y V; J, rho h V; kg.
   std::vector<double> content_, heatContent_, newMass_;

@@ -75,7 +75,8 @@ std::vector<BoundaryTotals> TransportOperator::boundaryTotals(const State& state
     const int b = face - m.interiorFaces;
     double* sum = &sums[width * static_cast<std::size_t>(m.patch[b])];
     sum[0] += m.area[face];
-    const Vector3 friction = momentum_.forces().boundaryTraction(face, state, properties_.boundaryViscosity[b]);
+    const Vector3 friction =
+        momentum_.forces().boundaryTraction(face, state, properties_.effectiveBoundaryViscosity()[b]);
     for (std::size_t i = 0; i < 3; ++i) {
       sum[4 + i] += pressure[b] * m.area[face] * m.normal[face][i];
       sum[7 + i] += friction[i];
