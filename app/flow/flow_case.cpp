@@ -156,6 +156,29 @@ void readGravity(const Deck& deck, FlowCase& flowCase) {
           Thermo(*flowCase.mechanism).density(boundary.temperature, flowCase.pressure, boundary.Y);
 }
 
+// The weight of all of the gas, which the pressure of a flow without outlets may hold or not.
+void readDrivingForce(const Deck& deck, FlowCase& flowCase) {
+  if (!deck.has("driving_acceleration")) return;
+  if (deck.has("gravity")) throw deck.error("driving_acceleration", "expected no 'gravity' beside it");
+  const AxisNames names = axisNames(flowCase);
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    if (boundary.kind == BoundaryKind::Outlet)
+      throw deck.error(
+          "driving_acceleration",
+          fmt::format("'{}' is an outlet, through which the pressure would fall; expected none", boundary.name));
+  for (const char* name : {"x", "y", "z"}) {
+    const std::string key = std::string("driving_acceleration.") + name;
+    if (!deck.has(key)) continue;
+    const auto axis = std::ranges::find(names, name);
+    if (axis == names.end()) throw deck.error(key, axesText(names));
+    const auto i = static_cast<std::size_t>(axis - names.begin());
+    if (flowCase.meshFile || !flowCase.mesh.periodic[i])
+      throw deck.error(key, fmt::format("expected a box whose sides along {} are periodic", name));
+    flowCase.gravity[i] = deck.quantity(key);
+  }
+  flowCase.referenceDensity = 0.0;
+}
+
 EnsembleStatistics::Options readStatistics(const Deck& deck, FlowCase& flowCase) {
   constexpr double usualBlocks = 20.0;  // in the whole run
   const std::string section = "stochastic.statistics";
@@ -293,6 +316,8 @@ FlowCase readFlowCase(const Deck& deck) {
   readInitial(deck, flowCase);
   readCarriedStart(deck, flowCase);
   readGravity(deck, flowCase);
+  readDrivingForce(deck, flowCase);
+  readTurbulence(deck, flowCase);
   flowCase.radiation = readRadiation(deck, *flowCase.mechanism);
   readTime(deck, flowCase);
   flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");

@@ -20,6 +20,7 @@
 #include "flow/models/carried_operator.hpp"
 #include "flow/models/radiation.hpp"
 #include "flow/models/reaction_operator.hpp"
+#include "flow/models/turbulence/turbulence_model.hpp"
 #include "flow/properties/transport_model.hpp"
 #include "flow/steady/steadiness.hpp"
 #include "flow/steady/steady_search.hpp"
@@ -123,6 +124,13 @@ struct MeshFile {
   std::string content;  // a hash, once the mesh is made
 };
 
+struct TurbulenceCase {
+  std::shared_ptr<const TurbulenceModel> model;  // null: none
+  EddyNumbers numbers;
+  FreeStream start;
+  std::vector<FreeStream> boundaries;  // of each, what comes in there
+};
+
 struct FlowCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
@@ -147,6 +155,7 @@ struct FlowCase {
   ReactionOperator::Options chemistry;
   TransportOperator::Options flow;
   RadiationOptions radiation;
+  TurbulenceCase turbulence;
   std::shared_ptr<CarriedModel> carried;               // null: nothing
   std::optional<EnsembleOperator::Options> ensembles;  // in the cells; then nothing else is carried
   std::shared_ptr<CellParticles> cellParticles;        // of the ensembles

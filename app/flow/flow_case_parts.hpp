@@ -43,6 +43,11 @@ void addTimeKeys(DeckSchema& schema);
 void requireModeOfParticles(const Deck& deck);
 void readTime(const Deck& deck, FlowCase& flowCase);
 
+// The section turbulence and what inlets bring of it: their keys, and reading them when boundaries, particles and start
+// have been read.
+void addTurbulenceKeys(DeckSchema& schema);
+void readTurbulence(const Deck& deck, FlowCase& flowCase);
+
 // The section output: its keys, and reading it when mesh, boundaries and times have been read.
 void addOutputKeys(DeckSchema& schema);
 void readOutput(const Deck& deck, FlowCase& flowCase);

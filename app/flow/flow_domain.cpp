@@ -16,10 +16,13 @@ std::shared_ptr<BoundaryValues> varyingValues(const Mesh& mesh, const FlowCase& 
 }
 
 std::vector<double> distancesFromWalls(const Mesh& mesh, HaloExchange& halo, const FlowCase& flowCase) {
-  if (!flowCase.output.wallDistance) return {};
+  const TurbulenceModel* turbulence = flowCase.turbulence.model.get();
+  const bool isOfModel = turbulence != nullptr && turbulence->needsWallDistance();
+  if (!flowCase.output.wallDistance && !isOfModel) return {};
   std::vector<int> walls;
   for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b)
-    if (flowCase.boundaries[b].kind == BoundaryKind::Wall) walls.push_back(static_cast<int>(b));
+    if (flowCase.boundaries[b].kind == BoundaryKind::Wall && !(isOfModel && flowCase.boundaries[b].slip))
+      walls.push_back(static_cast<int>(b));
   return wallDistance(mesh, halo, walls);
 }
 
@@ -28,6 +31,8 @@ std::vector<ScalarBlock> carriedBlocks(const FlowCase& flowCase) {
   std::vector<ScalarBlock> blocks;
   if (flowCase.ensembles) blocks.push_back({flowCase.cellParticles->material(), flowCase.cellParticles->scalars()});
   if (flowCase.carried) blocks.push_back(CarriedOperator::blockOf(*flowCase.carried, flowCase.boundaries));
+  if (const TurbulenceCase& of = flowCase.turbulence; of.model)
+    blocks.push_back(TurbulenceOperator::blockOf(*of.model, flowCase.boundaries, of.boundaries));
   return blocks;
 }
 
@@ -65,7 +70,8 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
               flowCase.referenceDensity,
               varyingValues(mesh, flowCase, thermo),
               flowCase.transport,
-              distancesFromWalls(mesh, halo, flowCase)},
+              distancesFromWalls(mesh, halo, flowCase),
+              flowCase.turbulence.numbers},
       state(mesh, flowCase.mechanism->numSpecies(), carriedBlocks(flowCase), flowCase.swirls),
       flow(context, state, flowCase.flow),
       chemistry(context, chemistryOptions),
@@ -102,6 +108,10 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
                                                     particleAbsorption(flowCase), block);
     operators.push_back(radiation.get());
   }
+  if (flowCase.turbulence.model) {
+    turbulence = std::make_unique<TurbulenceOperator>(context, state, flowCase.turbulence.model, flow.properties());
+    operators.push_back(turbulence.get());
+  }
   operators.push_back(&undershoots);
   operators.push_back(&stepControl);
 }
@@ -114,6 +124,7 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
     for (int c = 0; c < mesh.owned; ++c)
       ensembles->initialise(state, c, flowCase.startPopulation(static_cast<std::uint64_t>(mesh.naturalCell[c])));
   });
+  if (turbulence) turbulence->setStart(state, flowCase.turbulence.start);
   flow.initialise(state, flowCase.time.firstStep);
 }
 

@@ -14,6 +14,7 @@
 #include "flow/models/carried_operator.hpp"
 #include "flow/models/deposition_operator.hpp"
 #include "flow/models/radiation_operator.hpp"
+#include "flow/models/turbulence/turbulence_operator.hpp"
 #include "flow/stepping/budget.hpp"
 #include "flow/stepping/step_control.hpp"
 #include "flow/stepping/undershoot_correction.hpp"
@@ -51,6 +52,7 @@ struct FlowDomain {
   std::unique_ptr<EnsembleOperator> ensembles;
   std::unique_ptr<DepositionOperator> deposition;  // null without particles and without walls
   std::unique_ptr<RadiationOperator> radiation;
+  std::unique_ptr<TurbulenceOperator> turbulence;
   std::vector<Operator*> operators;  // of these, each advances over the step, one after the other
   std::unique_ptr<Budget> budget;
 };

@@ -102,6 +102,15 @@ void addGravity(DeckSchema& schema) {
     schema.add(
         quantityKey("gravity." + axis, units::acceleration, "Component along the " + axis + " axis, '-9.81 m/s^2'.")
             .optional());
+  schema.section(
+      "driving_acceleration", Presence::optional,
+      "What drives the gas along periodic sides, in place of the difference of pressures over them: a force on "
+      "all of the gas, by its mass (over the density, a mean gradient of the pressure); absent: none. Not with "
+      "gravity, nor with outlets.");
+  for (const std::string axis : {"z", "x", "y"})
+    schema.add(quantityKey("driving_acceleration." + axis, units::acceleration,
+                           "Component along the " + axis + " axis, whose two sides are periodic.")
+                   .optional());
 }
 
 void addInitial(DeckSchema& schema) {
@@ -319,6 +328,7 @@ DeckSchema flowSchema() {
   addInitial(schema);
   addGravity(schema);
   addRadiationKeys(schema);
+  flowcase::addTurbulenceKeys(schema);
   flowcase::addTimeKeys(schema);
   addConvectionAndOutput(schema);
   schema

@@ -50,13 +50,14 @@ double CarriedTransport::driftToWall(const Gas& gas, int face) const {
 }
 
 // kg/s of gas: the conductance of diffusion to a wall or an inlet.
-double CarriedTransport::wallDiffusion(const State& state, const Gas& gas, int face, int scalar) const {
+double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties, int face,
+                                       int scalar) const {
   const Mesh& m = context_.mesh;
   const double metric = m.area[face] / m.distance[face];
   const double share = state.scalars[scalar].wallDiffusivity;
   if (share > 0.0 && context_.boundaryOf(face).kind == BoundaryKind::Wall)
-    return metric * share * gas.properties.boundaryViscosity[face - m.interiorFaces];
-  return gas.faces.density[face] * metric * state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
+    return metric * share * properties.boundaryViscosity[face - m.interiorFaces];
+  return faces.density[face] * metric * state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
 }
 
 const std::vector<double>& CarriedTransport::diffusivities(const State& state) const {
@@ -92,7 +93,7 @@ void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
         for (int s = 0; s < n; ++s) {  // nothing flows through these
           if (!given[s].isHeld) continue;
           const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
-          const double share = outsideWallLayer(drift, wallDiffusion(state, gas, face, s));
+          const double share = outsideWallLayer(drift, wallDiffusion(state, gas.faces, gas.properties, face, s));
           if (share > 0.0) flux[s] = drift * share * gas.faces.carriedRiseToWall(face, s);
         }
       continue;
@@ -124,10 +125,9 @@ void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
       if (state.scalars[s].isTransported) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
 }
 
-void CarriedTransport::diffusiveFlux(const State& state, const Gas& gas, std::span<double> conductance,
-                                     std::span<double> flux) const {
+void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces, const GasProperties& properties,
+                                     std::span<double> conductance, std::span<double> flux) const {
   const Mesh& m = context_.mesh;
-  const FaceState& faces = gas.faces;
   const std::vector<double>& D = diffusivities(state);
   const int n = state.carriedCount();
   if (m.isOblique()) {
@@ -145,7 +145,7 @@ void CarriedTransport::diffusiveFlux(const State& state, const Gas& gas, std::sp
       if (!given[s].isHeld) continue;
       const int i = m.low[face] * n + s;
       const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
-      const double diffusion = wallDiffusion(state, gas, face, s);
+      const double diffusion = wallDiffusion(state, faces, properties, face, s);
       double& g = conductance[face * n + s];
       g = takenByWall(drift, diffusion);
       flux[face * n + s] =
@@ -174,7 +174,7 @@ void CarriedTransport::presentFlux(const State& state, const Gas& gas, std::span
   convectiveFlux(state, gas);
   std::vector<double> conductance(flux.size());
   std::ranges::fill(flux, 0.0);
-  diffusiveFlux(state, gas, conductance, flux);
+  diffusiveFlux(state, gas.faces, gas.properties, conductance, flux);
   for (std::size_t i = 0; i < flux.size(); ++i) flux[i] += flux_[i];
 }
 
@@ -217,13 +217,13 @@ void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, st
   std::vector<double> conductance(flux_.size());
   std::vector<double> flux(flux_.size(), 0.0), startFlux(flux_.size(), 0.0);
   if (&gas.start != &state) {
-    diffusiveFlux(gas.start, gas, conductance, startFlux);
-    diffusiveFlux(state, gas, conductance, flux);
+    diffusiveFlux(gas.start, gas.faces, gas.properties, conductance, startFlux);
+    diffusiveFlux(state, gas.faces, gas.properties, conductance, flux);
     for (std::size_t i = 0; i < flux.size(); ++i) flux[i] = 0.5 * (startFlux[i] - flux[i]);
     addFaceFluxes(m, flux, n, dt, content);
     addCrossed(flux);
   }
-  diffusiveFlux(state, gas, conductance, flux);
+  diffusiveFlux(state, gas.faces, gas.properties, conductance, flux);
   // At what rate the contents change by everything else and by the guess's diffusion and sinks.
   const std::vector<double>& sink = state.balance.carriedSink;
   std::vector<double> sinks;  // kg/s

@@ -47,8 +47,8 @@ class CarriedTransport {
   void presentFlux(const State& state, const Gas& gas, std::span<double> flux);
 
   // Collective. Flux of the state by its own diffusivities, and the conductances (per s) it has through the faces.
-  void diffusiveFlux(const State& state, const FaceState& faces, std::span<double> conductance,
-                     std::span<double> flux) const;
+  void diffusiveFlux(const State& state, const FaceState& faces, const GasProperties& properties,
+                     std::span<double> conductance, std::span<double> flux) const;
 
   // Flux of the last step, per s, scalars a face, positive from low to high or outwards: all that crosses the boundary,
   // between cells the convective part.
@@ -62,7 +62,8 @@ class CarriedTransport {
  private:
   void findDrift(const Gas& gas);
   [[nodiscard]] double driftToWall(const Gas& gas, int face) const;
-  [[nodiscard]] double wallDiffusion(const State& state, const Gas& gas, int face, int scalar) const;
+  [[nodiscard]] double wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties, int face,
+                                     int scalar) const;
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
   void addCrossed(std::span<const double> flux);

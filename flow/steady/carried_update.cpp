@@ -57,7 +57,7 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
     system_.addInertia(cell, inertia[c]);
   }
   std::ranges::fill(conductance_, 0.0);
-  residual.carried().diffusiveFlux(state, residual.faces(), conductance_, flux_);
+  residual.carried().diffusiveFlux(state, residual.faces(), residual.properties(), conductance_, flux_);
   for (int face = 0; face < m.faces; ++face)
     for (std::size_t s = 0; s < n_; ++s) {
       if (!state.scalars[s].isTransported) continue;

@@ -1,0 +1,149 @@
+// The section turbulence of a flow deck, and what its inlets bring of turbulence.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/flow/flow_case_parts.hpp"
+
+namespace lampblack::app::flowcase {
+namespace {
+
+constexpr double ratioOfStream = 0.21;  // of an inlet that says nothing, for models of one equation: 3 nu of SA
+
+// m^2/s, of a gas.
+double kinematicViscosity(const FlowCase& flowCase, double temperature, std::span<const double> Y) {
+  const Thermo thermo(*flowCase.mechanism);
+  Transport transport(*flowCase.mechanism, flowCase.transport.averaged());
+  std::vector<double> X(Y.size()), D(Y.size());
+  thermo.massToMole(Y, X);
+  return transport.mixture(temperature, flowCase.pressure, X, D).viscosity /
+         thermo.density(temperature, flowCase.pressure, Y);
+}
+
+FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCase& flowCase) {
+  const std::string section = "boundaries." + boundary.name, intensityKey = section + ".turbulence_intensity";
+  const auto intensity = deck.optionalNumber(intensityKey);
+  const auto length = deck.optionalQuantity(section + ".turbulence_length");
+  const auto ratio = deck.optionalNumber(section + ".eddy_viscosity_ratio");
+  const bool knowsEnergy = flowCase.turbulence.model->knowsEnergy();
+  if (length && ratio)
+    throw deck.error(section, "expected one of 'turbulence_length' and 'eddy_viscosity_ratio', found both");
+  if (length && !intensity) throw deck.error(section, "a 'turbulence_length' needs a 'turbulence_intensity', too");
+  if (knowsEnergy && (!intensity || (!length && !ratio)))
+    throw deck.error(section,
+                     "this turbulence model needs a 'turbulence_intensity' and one of 'turbulence_length' and "
+                     "'eddy_viscosity_ratio' of each inlet");
+  FreeStream stream;
+  stream.viscosity = kinematicViscosity(flowCase, boundary.temperature, boundary.Y);
+  stream.eddyViscosity = ratio.value_or(ratioOfStream) * stream.viscosity;
+  if (!intensity) return stream;
+  const double fluctuation = *intensity * std::abs(boundary.speed);
+  stream.energy = 1.5 * fluctuation * fluctuation;
+  if (knowsEnergy && !(stream.energy > 0.0))
+    throw deck.error(intensityKey, "expected an inlet with a velocity, whose turbulent energy is above zero");
+  // omega = k^(1/2)/(C_mu^(1/4) l), with C_mu = 0.09.
+  if (length) stream.eddyViscosity = std::sqrt(stream.energy) * std::pow(0.09, 0.25) * *length;
+  if (*intensity > 1.0) flowCase.notes.push_back(fmt::format("{}: more than one, {:g}", intensityKey, *intensity));
+  return stream;
+}
+
+}  // namespace
+
+void addTurbulenceKeys(DeckSchema& schema) {
+  std::vector<std::string> names{"none"}, described;
+  for (const TurbulenceRow& row : turbulenceModels()) {
+    names.emplace_back(row.name);
+    described.push_back(fmt::format("{}: {}", row.name, row.description));
+  }
+  const std::vector<std::string> models(names.begin() + 1, names.end());
+  schema
+      .add(choiceKey("turbulence.model", names,
+                     fmt::format("Model of Reynolds-averaged turbulence. none: laminar, or all eddies resolved; {}. "
+                                 "All resolve the layers beside walls: y+ of the first cells (history.csv) about one "
+                                 "or less.",
+                                 fmt::join(described, "; ")))
+               .byDefault("none"))
+      .add(numberKey("turbulence.prandtl", "Turbulent Prandtl number: eddies mix heat by their viscosity over it.")
+               .byDefault("0.9")
+               .above(0)
+               .onlyWith("turbulence.model", models))
+      .add(numberKey("turbulence.schmidt",
+                     "Turbulent Schmidt number, of species and of the particles of models. In flames 0.7 is usual for "
+                     "both.")
+               .byDefault("0.9")
+               .above(0)
+               .onlyWith("turbulence.model", models))
+      .add(numberKey("turbulence.eddy_viscosity_ratio",
+                     "Eddy viscosity over that of the molecules at the start, and of gas that outlets draw in.")
+               .byDefault("10")
+               .above(0)
+               .onlyWith("turbulence.model", models))
+      .add(
+          quantityKey("turbulence.energy", units::velocity * units::velocity,
+                      "Turbulent kinetic energy k at the start, and of gas that outlets draw in, '0.3 m^2/s^2'; models "
+                      "of two equations need it, those of one do not look at it.")
+              .optional()
+              .above(0)
+              .onlyWith("turbulence.model", models))
+      .add(
+          numberKey("boundaries.*.turbulence_intensity",
+                    "Fluctuations of the velocity over the velocity: k = 1.5 (intensity * velocity)^2, of the velocity "
+                    "in the middle where it varies.")
+              .optional()
+              .above(0)
+              .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(quantityKey("boundaries.*.turbulence_length", units::length,
+                       "Length of the eddies that come in; in developed pipes 0.07 of the diameter.")
+               .optional()
+               .above(0)
+               .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(numberKey("boundaries.*.eddy_viscosity_ratio",
+                     "Eddy viscosity over that of the molecules of the gas that comes in, in place of the length; "
+                     "absent, for models of one equation: 0.21.")
+               .optional()
+               .above(0)
+               .onlyWith("boundaries.*.type", {"inlet"}));
+}
+
+void readTurbulence(const Deck& deck, FlowCase& flowCase) {
+  const std::string name = deck.choice("turbulence.model");
+  if (name == "none") {
+    for (const BoundaryCondition& boundary : flowCase.boundaries)
+      for (const char* key : {"turbulence_intensity", "turbulence_length", "eddy_viscosity_ratio"})
+        if (const std::string full = "boundaries." + boundary.name + "." + key; deck.has(full))
+          throw deck.error(full, "the flow has no turbulence model; expected a 'turbulence.model'");
+    return;
+  }
+  TurbulenceCase& turbulence = flowCase.turbulence;
+  turbulence.model = turbulenceModel(name);
+  turbulence.numbers = {deck.number("turbulence.prandtl"), deck.number("turbulence.schmidt")};
+  if (flowCase.ensembles)
+    throw deck.error("turbulence.model", "ensembles in the cells do not know how eddies mix them; expected none");
+  if (flowCase.swirls)
+    throw deck.error("turbulence.model", "the models do not know the strain of a flow that swirls; expected none");
+  if (turbulence.model->needsWallDistance() &&
+      std::ranges::none_of(flowCase.boundaries, [](const BoundaryCondition& boundary) {
+        return boundary.kind == BoundaryKind::Wall && !boundary.slip;
+      })) {
+    std::vector<std::string> names;
+    for (const BoundaryCondition& boundary : flowCase.boundaries) names.push_back(boundary.name);
+    throw deck.error("turbulence.model",
+                     fmt::format("'{}' goes by the distance from walls, and no boundary is a wall without slip: {}",
+                                 name, fmt::join(names, ", ")));
+  }
+  const Stream first{flowCase.initial.low.temperature, flowCase.initial.low.Y};
+  turbulence.start.viscosity = kinematicViscosity(flowCase, first.temperature, first.Y);
+  turbulence.start.eddyViscosity = deck.number("turbulence.eddy_viscosity_ratio") * turbulence.start.viscosity;
+  if (turbulence.model->knowsEnergy()) {
+    const auto energy = deck.optionalQuantity("turbulence.energy");
+    if (!energy) throw deck.error("turbulence", fmt::format("'{}' needs the key 'energy'", name));
+    turbulence.start.energy = *energy;
+  }
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    turbulence.boundaries.push_back(boundary.kind == BoundaryKind::Inlet ? streamOf(deck, boundary, flowCase)
+                                                                         : turbulence.start);
+}
+
+}  // namespace lampblack::app::flowcase

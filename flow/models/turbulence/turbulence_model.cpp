@@ -1,0 +1,58 @@
+#include "flow/models/turbulence/turbulence_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/errors.hpp"
+#include "flow/models/turbulence/k_omega.hpp"
+#include "flow/models/turbulence/shear_stress_transport.hpp"
+#include "flow/models/turbulence/spalart_allmaras.hpp"
+#include "flow/models/turbulence/wang.hpp"
+#include "flow/models/turbulence/wray_agarwal.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+template <class Kernel>
+std::shared_ptr<const TurbulenceModel> make() {
+  return std::make_shared<PointwiseModel<Kernel>>();
+}
+
+const std::array rows{
+    TurbulenceRow{"sa", "Spalart and Allmaras, negative form", make<SpalartAllmaras>},
+    TurbulenceRow{"wray_agarwal", "Wray and Agarwal, version of 2018", make<WrayAgarwal>},
+    TurbulenceRow{"wang", "Wang's one-equation model, constants as printed", make<WangModel>},
+    TurbulenceRow{"sst", "k-omega SST of Menter, Kuntz and Langtry, 2003", make<ShearStressTransport<2003>>},
+    TurbulenceRow{"sst1994", "k-omega SST of Menter, 1994", make<ShearStressTransport<1994>>},
+    TurbulenceRow{"k_omega", "k-omega of Wilcox, 2006", make<KOmega<2006>>},
+    TurbulenceRow{"k_omega1988", "k-omega of Wilcox, 1988", make<KOmega<1988>>},
+};
+
+}  // namespace
+
+std::span<const TurbulenceRow> turbulenceModels() {
+  return rows;
+}
+
+std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name) {
+  const auto row = std::ranges::find(rows, name, [](const TurbulenceRow& r) { return std::string_view(r.name); });
+  if (row == rows.end()) throw InputError(fmt::format("there is no turbulence model '{}'", name));
+  return row->make();
+}
+
+double dampedRatio(double ratio, double c) {
+  // From above, where Newton's iteration of a convex function comes down to the root.
+  double X = ratio + c;
+  for (int i = 0; i < 100; ++i) {
+    const double cube = X * X * X, sum = cube + c * c * c;
+    const double slope = (cube * sum + 3.0 * cube * c * c * c) / (sum * sum);
+    const double step = (cube * X / sum - ratio) / slope;
+    X -= step;
+    if (std::abs(step) < 1e-14 * X) break;
+  }
+  return X;
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,107 @@
+// Models of Reynolds-averaged turbulence: what is known of a cell, what a model makes of it, and the table of all
+// models. A model is a class with the members that PointwiseModel names and a row of turbulenceModels().
+//
+// Each model carries one or two variables per kg of gas (ScalarBlock). Their rates are parted into a source and a sink
+// in proportion to what there is, which the step takes implicitly, so that what is positive stays positive. Sources of
+// the equations: docs/theory/turbulence.md.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh.hpp"
+#include "core/modules.hpp"
+
+namespace lampblack::flow {
+
+struct TurbulentCell {
+  static constexpr std::size_t most = 2;  // variables of a model
+
+  double strain = 0.0;           // 1/s, sqrt(2 S_ij S_ij - 2/3 (div u)^2): dilatation has no part in it
+  double vorticity = 0.0;        // 1/s, sqrt(2 W_ij W_ij)
+  double dilatation = 0.0;       // 1/s, div u
+  double stretching = 0.0;       // 1/s^3, |W_ij W_jk S_ki|, S without half of the dilatation
+  double distance = 0.0;         // m, from the nearest wall
+  double viscosity = 0.0;        // m^2/s, kinematic, molecular
+  double strainLaplacian = 0.0;  // 1/(s m^2)
+  Vector3 strainGradient{};      // 1/(s m)
+  Vector3 densityGradient{};     // 1/m, of the density over the density
+  std::array<double, most> values{};
+  std::array<Vector3, most> gradients{};
+};
+
+struct TurbulentRates {
+  double eddyViscosity = 0.0;                                // m^2/s
+  std::array<double, TurbulentCell::most> diffusivity{};     // m^2/s, molecular part included
+  std::array<double, TurbulentCell::most> source{}, sink{};  // the variable's unit over s; 1/s, not below zero
+
+  // A rate that stays explicit where it adds, and is implicit where it takes from a value above zero.
+  void add(std::size_t variable, double rate, double value) {
+    if (rate < 0.0 && value > 0.0)
+      sink[variable] -= rate / value;
+    else
+      source[variable] += rate;
+  }
+};
+
+// Of gas that comes in, or that a flow starts from.
+struct FreeStream {
+  double viscosity = 0.0;      // m^2/s, kinematic, molecular
+  double eddyViscosity = 0.0;  // m^2/s
+  double energy = 0.0;         // m^2/s^2, k; of models that know it
+};
+
+class TurbulenceModel {
+ public:
+  struct Variable {
+    std::string name, unit, description;
+    double wallDiffusivity = 1.0;  // its diffusivity at a wall over the kinematic viscosity (CarriedScalar)
+  };
+
+  virtual ~TurbulenceModel() = default;
+  [[nodiscard]] virtual std::string name() const = 0;
+  [[nodiscard]] virtual std::vector<Variable> variables() const = 0;  // zero at walls
+  [[nodiscard]] virtual bool needsWallDistance() const = 0;
+  [[nodiscard]] virtual bool needsStrainGradient() const = 0;
+  [[nodiscard]] bool knowsEnergy() const { return variables().size() > 1; }
+  [[nodiscard]] virtual std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const = 0;
+  virtual void evaluate(std::span<const TurbulentCell> cells, std::span<TurbulentRates> rates) const = 0;
+};
+
+// A model of what is known of one cell.
+template <class Kernel>
+class PointwiseModel : public TurbulenceModel {
+ public:
+  explicit PointwiseModel(Kernel kernel = {}) : kernel_(kernel) {}
+  [[nodiscard]] std::string name() const override { return kernel_.name(); }
+  [[nodiscard]] std::vector<Variable> variables() const override { return kernel_.variables(); }
+  [[nodiscard]] bool needsWallDistance() const override { return Kernel::needsWallDistance; }
+  [[nodiscard]] bool needsStrainGradient() const override { return Kernel::needsStrainGradient; }
+  [[nodiscard]] std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const override {
+    return kernel_.freeStream(stream);
+  }
+  void evaluate(std::span<const TurbulentCell> cells, std::span<TurbulentRates> rates) const override {
+    for (std::size_t c = 0; c < cells.size(); ++c) rates[c] = kernel_.at(cells[c]);
+  }
+
+ private:
+  Kernel kernel_;
+};
+
+struct TurbulenceRow {
+  const char* name;  // in decks
+  const char* description;
+  std::shared_ptr<const TurbulenceModel> (*make)();
+};
+[[nodiscard]] std::span<const TurbulenceRow> turbulenceModels();
+// InputError for a name that no row has.
+[[nodiscard]] std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name);
+
+// The root X of X^4 / (X^3 + c^3) = ratio: of models whose eddy viscosity is X nu f with f = X^3/(X^3 + c^3).
+[[nodiscard]] double dampedRatio(double ratio, double c);
+
+}  // namespace lampblack::flow

@@ -1,0 +1,309 @@
+#include "flow/models/turbulence/turbulence_operator.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "flow/discretisation/face_fluxes.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+constexpr const char* owner = "turbulence";
+
+// Sinks become what a rate falls by as its own variable rises, where that is more; the rates stay what they are. The
+// wall function of SA goes with the sixth power of the variable: with a sink of that of the square alone long steps
+// swing.
+void linearise(const TurbulenceModel& model, std::size_t variables, std::span<const TurbulentCell> cells,
+               std::span<TurbulentRates> rates) {
+  constexpr double small = 1e-6;
+  std::vector<TurbulentCell> beside(cells.begin(), cells.end());
+  std::vector<TurbulentRates> ofBeside(rates.size());
+  const auto net = [](const TurbulentRates& of, const TurbulentCell& cell, std::size_t v) {
+    return of.source[v] - of.sink[v] * cell.values[v];
+  };
+  for (std::size_t v = 0; v < variables; ++v) {
+    for (std::size_t c = 0; c < cells.size(); ++c) beside[c].values[v] += small * std::abs(cells[c].values[v]);
+    model.evaluate(beside, ofBeside);
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+      const double rise = beside[c].values[v] - cells[c].values[v];
+      beside[c].values[v] = cells[c].values[v];
+      if (!(cells[c].values[v] > 0.0)) continue;
+      TurbulentCell moved = cells[c];
+      moved.values[v] += rise;
+      const double more = -(net(ofBeside[c], moved, v) - net(rates[c], cells[c], v)) / rise - rates[c].sink[v];
+      if (!(more > 0.0)) continue;
+      rates[c].sink[v] += more;
+      rates[c].source[v] += more * cells[c].values[v];
+    }
+  }
+}
+
+}  // namespace
+
+ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std::vector<BoundaryCondition>& conditions,
+                                        const std::vector<FreeStream>& boundaries) {
+  ScalarBlock block{.owner = owner, .scalars = {}, .givesEddies = true};
+  for (const TurbulenceModel::Variable& variable : model.variables())
+    block.scalars.push_back({.name = variable.name,
+                             .unit = variable.unit,
+                             .description = variable.description,
+                             .isStirred = false,
+                             .wallDiffusivity = variable.wallDiffusivity});
+  for (std::size_t s = 0; s < block.scalars.size(); ++s)
+    for (std::size_t b = 0; b < conditions.size(); ++b) {
+      ScalarBoundary boundary;
+      const BoundaryKind kind = conditions[b].kind;
+      if (kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet)
+        boundary.value = model.freeStream(boundaries[b])[s];
+      boundary.isHeld = kind == BoundaryKind::Inlet || (kind == BoundaryKind::Wall && !conditions[b].slip);
+      block.scalars[s].boundaries.push_back(boundary);
+    }
+  return block;
+}
+
+TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& state,
+                                       std::shared_ptr<const TurbulenceModel> model, const GasProperties& properties)
+    : context_(context),
+      model_(std::move(model)),
+      properties_(properties),
+      first_(static_cast<std::size_t>(state.block(owner).first)),
+      count_(static_cast<std::size_t>(state.block(owner).count)),
+      velocityGradient_(context),
+      gradient_(context.mesh) {
+  const Mesh& m = context.mesh;
+  const auto cells = static_cast<std::size_t>(m.cells), owned = static_cast<std::size_t>(m.owned);
+  const auto faces = static_cast<std::size_t>(m.boundaryFaces()), d = static_cast<std::size_t>(m.dimension);
+  if (model_->needsWallDistance() && context.wallDistance.size() != owned)
+    throw std::logic_error("a model of turbulence without the distances from walls");
+  cells_.resize(owned);
+  rates_.resize(owned);
+  values_.resize(cells * count_);
+  boundaryValues_.resize(faces * count_);
+  valueGradient_.resize(cells * count_ * d);
+  densityGradient_.resize(cells * d);
+  strain_.resize(cells);
+  boundaryStrain_.resize(faces);
+  strainGradient_.resize(cells * d);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+    const BoundaryKind kind = context.boundaryOf(face).kind;
+    const bool isSlip = kind == BoundaryKind::Wall && !isSticky(face);
+    const BoundaryData open =
+        kind == BoundaryKind::Symmetry || isSlip ? BoundaryData::ZeroSlope : BoundaryData::Nothing;
+    knownDensity_.push_back(open);
+    knownStrain_.push_back(isSticky(face) ? BoundaryData::Value : open);
+    const auto patch = static_cast<std::size_t>(m.patch[b]);
+    known_.push_back(state.scalars[first_].boundaries[patch].isHeld ? BoundaryData::Value : open);
+    for (std::size_t v = 0; v < count_; ++v)
+      boundaryValues_[b * count_ + v] = state.scalars[first_ + v].boundaries[patch].value;
+  }
+}
+
+bool TurbulenceOperator::isSticky(int face) const {
+  const BoundaryCondition& boundary = context_.boundaryOf(face);
+  return boundary.kind == BoundaryKind::Wall && !boundary.slip;
+}
+
+void TurbulenceOperator::setStart(State& state, const FreeStream& start) const {
+  const auto values = model_->freeStream(start);
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < state.density.size(); ++c)
+    for (std::size_t v = 0; v < count_; ++v) state.carried[c * n + first_ + v] = state.density[c] * values[v];
+  for (std::size_t c = 0; c < state.density.size(); ++c)
+    state.eddyViscosity[c] = state.density[c] * start.eddyViscosity;
+}
+
+void TurbulenceOperator::advance(State& state, double, double dt) {
+  constexpr double longest = 4.0;
+  evaluate(state);
+  for (std::size_t c = 0; c < rates_.size(); ++c) {
+    const double share = 1.0 / (1.0 + std::min(cells_[c].strain * dt, longest));
+    double& eddies = state.eddyViscosity[c];
+    eddies += share * (state.density[c] * rates_[c].eddyViscosity - eddies);
+  }
+  context_.halo.update(state.eddyViscosity, 1);
+}
+
+// Strain, vorticity and dilatation of the owned cells, of the gradient that has been computed.
+void TurbulenceOperator::findShear() {
+  const Mesh& m = context_.mesh;
+  const int d = m.dimension;
+  for (int c = 0; c < m.owned; ++c) {
+    // du_j/dx_i; about an axis the hoop's part stands in the third place.
+    std::array<std::array<double, 3>, 3> slope{}, S{}, W{};
+    for (std::size_t j = 0; j < static_cast<std::size_t>(d); ++j)
+      for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i)
+        slope[j][i] = velocityGradient_.of(c, static_cast<int>(j))[i];
+    TurbulentCell& cell = cells_[c];
+    if (m.axisymmetric()) slope[2][2] = cell.dilatation - slope[0][0] - slope[1][1];
+    double strains = 0.0, turns = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        S[i][j] = 0.5 * (slope[j][i] + slope[i][j]);
+        W[i][j] = 0.5 * (slope[i][j] - slope[j][i]);
+        strains += S[i][j] * S[i][j];
+        turns += W[i][j] * W[i][j];
+      }
+    const double squared = 2.0 * strains - 2.0 / 3.0 * cell.dilatation * cell.dilatation;
+    cell.strain = std::sqrt(std::max(squared, 0.0));
+    cell.vorticity = std::sqrt(2.0 * turns);
+    for (std::size_t i = 0; i < 3; ++i) S[i][i] -= 0.5 * cell.dilatation;
+    double stretching = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < 3; ++k) stretching += W[i][j] * W[j][k] * S[k][i];
+    cell.stretching = std::abs(stretching);
+    strain_[c] = cell.strain;
+  }
+}
+
+// 1/s, one-sided: along the wall, of the gas beside it.
+double TurbulenceOperator::strainAtWall(int face, const State& state) const {
+  const Mesh& m = context_.mesh;
+  const int d = m.dimension;
+  Vector3 rise{};
+  for (int i = 0; i < d; ++i)
+    rise[i] = state.velocity[d * m.low[face] + i] - velocityGradient_.boundary()[d * (face - m.interiorFaces) + i];
+  const double across = dot(rise, m.normal[face]);
+  return std::sqrt(std::max(dot(rise, rise) - across * across, 0.0)) / m.distance[face];
+}
+
+void TurbulenceOperator::addStrainGradient(const State& state) {
+  const Mesh& m = context_.mesh;
+  const auto d = static_cast<std::size_t>(m.dimension);
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (isSticky(face)) boundaryStrain_[face - m.interiorFaces] = strainAtWall(face, state);
+  context_.halo.update(strain_, 1);
+  gradient_.compute(strain_, boundaryStrain_, 1, strainGradient_, knownStrain_);
+  std::vector<double> sum(static_cast<std::size_t>(m.owned), 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    const bool isInside = m.high[face] >= 0;
+    if (!isInside && !isSticky(face)) continue;
+    const double beyond = isInside ? strain_[m.high[face]] : boundaryStrain_[face - m.interiorFaces];
+    addFaceFlux(m, face, -m.area[face] / m.distance[face] * (beyond - strain_[m.low[face]]), 1.0, sum);
+  }
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    cells_[c].strainLaplacian = sum[c] / m.volume[c];
+    std::copy_n(&strainGradient_[c * d], d, cells_[c].strainGradient.begin());
+  }
+}
+
+void TurbulenceOperator::evaluate(const State& state) {
+  const Mesh& m = context_.mesh;
+  const auto d = static_cast<std::size_t>(m.dimension);
+  const std::size_t n = state.scalars.size();
+  velocityGradient_.setBoundary(state.velocity);
+  velocityGradient_.compute(state.velocity);
+  for (std::size_t c = 0; c < state.density.size(); ++c)
+    for (std::size_t v = 0; v < count_; ++v)
+      values_[c * count_ + v] = state.carried[c * n + first_ + v] / state.density[c];
+  gradient_.compute(values_, boundaryValues_, static_cast<int>(count_), valueGradient_, known_);
+  gradient_.compute(state.density, boundaryStrain_, 1, densityGradient_, knownDensity_);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    TurbulentCell& cell = cells_[c];
+    cell.dilatation = velocityGradient_.dilatation(static_cast<int>(c), state.velocity);
+    cell.viscosity = properties_.viscosity[c] / state.density[c];
+    if (model_->needsWallDistance()) cell.distance = context_.wallDistance[c];
+    std::copy_n(&values_[c * count_], count_, cell.values.begin());
+    for (std::size_t i = 0; i < d; ++i) {
+      for (std::size_t v = 0; v < count_; ++v) cell.gradients[v][i] = valueGradient_[(c * count_ + v) * d + i];
+      cell.densityGradient[i] = densityGradient_[c * d + i] / state.density[c];
+    }
+  }
+  findShear();
+  if (model_->needsStrainGradient()) addStrainGradient(state);
+  model_->evaluate(cells_, rates_);
+  linearise(*model_, count_, cells_, rates_);
+}
+
+void TurbulenceOperator::add(const State& state, State::Balance& rates) const {
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < rates_.size(); ++c)
+    for (std::size_t v = 0; v < count_; ++v) {
+      rates.carried[c * n + first_ + v] += state.density[c] * rates_[c].source[v];
+      rates.carriedSink[c * n + first_ + v] += rates_[c].sink[v];
+    }
+}
+
+void TurbulenceOperator::addRates(const State& state, State::Balance& rates) {
+  evaluate(state);
+  add(state, rates);
+}
+
+void TurbulenceOperator::endSweep(State& state) {
+  evaluate(state);
+  add(state, state.balance);
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < rates_.size(); ++c)
+    for (std::size_t v = 0; v < count_; ++v) state.carriedDiffusivity[c * n + first_ + v] = rates_[c].diffusivity[v];
+  context_.halo.update(state.carriedDiffusivity, static_cast<int>(n));
+}
+
+TurbulenceOperator::WallState TurbulenceOperator::atWall(int face, const State& state) const {
+  const Mesh& m = context_.mesh;
+  const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+  const auto cell = static_cast<std::size_t>(m.low[face]);
+  const double viscosity =
+      b < properties_.boundaryViscosity.size() ? properties_.boundaryViscosity[b] : properties_.viscosity[cell];
+  const double shear = viscosity * strainAtWall(face, state);
+  return {shear, std::sqrt(shear * state.density[cell]) * m.distance[face] / viscosity};
+}
+
+std::vector<Quantity> TurbulenceOperator::historyColumns() const {
+  return {{"y_plus_min", "1", "smallest y+ of the centres of cells beside walls; 0 without walls"},
+          {"y_plus_mean", "1", "mean of y+ over the walls"},
+          {"y_plus_max", "1", "largest y+"},
+          {"wall_shear", "Pa", "friction of the gas along the walls, mean over them"},
+          {"eddy_viscosity_ratio", "1", "largest eddy viscosity over that of the molecules"},
+          {"negative_turbulence", "1", "cells in which a variable of the turbulence model is below zero"}};
+}
+
+std::vector<double> TurbulenceOperator::historyValues(const State& state) {
+  const Mesh& m = context_.mesh;
+  velocityGradient_.setBoundary(state.velocity);
+  std::array<double, 3> extremes{-std::numeric_limits<double>::max(), 0.0, 0.0};  // -least y+, largest y+, ratio
+  std::array<double, 4> sums{};                                                   // area, y+, shear, cells
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (!isSticky(face) || m.area[face] <= 0.0) continue;
+    const WallState wall = atWall(face, state);
+    extremes[0] = std::max(extremes[0], -wall.yPlus);
+    extremes[1] = std::max(extremes[1], wall.yPlus);
+    sums[0] += m.area[face];
+    sums[1] += m.area[face] * wall.yPlus;
+    sums[2] += m.area[face] * wall.shear;
+  }
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    extremes[2] = std::max(extremes[2], state.eddyViscosity[c] / properties_.viscosity[c]);
+    for (std::size_t v = 0; v < count_; ++v)
+      if (state.carried[c * n + first_ + v] < 0.0) {
+        sums[3] += 1.0;
+        break;
+      }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, m.comm);
+  const bool hasWalls = sums[0] > 0.0;
+  return {hasWalls ? -extremes[0] : 0.0,
+          hasWalls ? sums[1] / sums[0] : 0.0,
+          extremes[1],
+          hasWalls ? sums[2] / sums[0] : 0.0,
+          extremes[2],
+          sums[3]};
+}
+
+void TurbulenceOperator::fields(const State& state, const FieldSink& sink) const {
+  const std::size_t n = state.scalars.size();
+  std::vector<double> column(cells_.size());
+  for (std::size_t v = 0; v < count_; ++v) {
+    const CarriedScalar& scalar = state.scalars[first_ + v];
+    for (std::size_t c = 0; c < column.size(); ++c) column[c] = state.carried[c * n + first_ + v] / state.density[c];
+    sink({scalar.name, scalar.unit, scalar.description}, column);
+  }
+}
+
+}  // namespace lampblack::flow

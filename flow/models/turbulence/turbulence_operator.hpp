@@ -1,0 +1,73 @@
+// A model of turbulence in a flow: it carries the model's variables as a block of scalars, tells transport their
+// sources, and sets the eddy viscosity by which momentum, heat, species and other scalars are mixed (GasProperties).
+// All of it is that of the state at the end of a sweep: of first order in time, and in a steady state exact. The eddy
+// viscosity is part of the state.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "flow/discretisation/velocity_gradient.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/models/turbulence/turbulence_model.hpp"
+#include "flow/operator.hpp"
+#include "flow/properties/gas_properties.hpp"
+
+namespace lampblack::flow {
+
+class TurbulenceOperator : public Operator {
+ public:
+  // `boundaries`: of each boundary, what comes in there; walls hold zero.
+  static ScalarBlock blockOf(const TurbulenceModel& model, const std::vector<BoundaryCondition>& conditions,
+                             const std::vector<FreeStream>& boundaries);
+
+  // `properties`: of transport, its molecular viscosities. The state has the model's block. The context has wall
+  // distances where the model needs them (std::logic_error). Collective.
+  TurbulenceOperator(const FlowContext& context, const State& state, std::shared_ptr<const TurbulenceModel> model,
+                     const GasProperties& properties);
+
+  // The same everywhere. The state has its density.
+  void setStart(State& state, const FreeStream& start) const;
+
+  [[nodiscard]] const char* name() const override { return "turbulence"; }
+  // Moves the eddy viscosity towards that of the variables: all the way where the step is short against the strain's
+  // time, a fifth of it where the step is long, lest strain and eddies swing each other up.
+  void advance(State& state, double time, double dt) override;
+  void endSweep(State& state) override;
+  void addRates(const State& state, State::Balance& rates) override;
+
+  [[nodiscard]] std::vector<Quantity> historyColumns() const override;
+  [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  void fields(const State& state, const FieldSink& sink) const override;
+
+  // At a wall that the gas sticks to: Pa, friction along it; y+ of the cell's centre.
+  struct WallState {
+    double shear = 0.0, yPlus = 0.0;
+  };
+  [[nodiscard]] WallState atWall(int face, const State& state) const;
+
+ private:
+  void evaluate(const State& state);
+  void findShear();
+  void addStrainGradient(const State& state);
+  [[nodiscard]] bool isSticky(int face) const;
+  [[nodiscard]] double strainAtWall(int face, const State& state) const;
+  void add(const State& state, State::Balance& rates) const;
+
+  const FlowContext& context_;
+  std::shared_ptr<const TurbulenceModel> model_;
+  const GasProperties& properties_;
+  std::size_t first_, count_;
+  VelocityGradient velocityGradient_;
+  Gradient gradient_;
+  std::vector<BoundaryData> known_, knownDensity_, knownStrain_;
+  std::vector<TurbulentCell> cells_;
+  std::vector<TurbulentRates> rates_;
+  // Of the local cells and boundary faces: the variables per mass; 1/s.
+  std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_,
+      strainGradient_;
+};
+
+}  // namespace lampblack::flow
