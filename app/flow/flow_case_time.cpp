@@ -14,12 +14,12 @@ namespace lampblack::app::flowcase {
 namespace {
 
 constexpr const char* mode = "time.mode";
-constexpr const char* section = "time.steady";
+constexpr const char* steadySection = "time.steady";
 
 std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase) {
-  if (!deck.has(section)) return {};
+  if (!deck.has(steadySection)) return {};
   if (flowCase.ensembles)
-    throw deck.error(section,
+    throw deck.error(steadySection,
                      "ensembles in the cells fluctuate, and with them the gas: their fields never come to rest. Leave "
                      "this out; averages that start by themselves tell when the soot has no trend "
                      "(stochastic.statistics)");
@@ -65,7 +65,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
                      "a steady state is sought with 'limited'; expected that, or 'time.mode: "
                      "transient' with two sweeps");
   TimeControl::Search search;
-  if (!deck.has(section)) return search;
+  if (!deck.has(steadySection)) return search;
   search.residual = deck.number("time.steady.residual");
   search.iterations = deck.integer<int>("time.steady.iterations");
   search.returns = deck.integer<int>("time.steady.returns");
@@ -149,7 +149,7 @@ void addTimeKeys(DeckSchema& schema) {
                .above(0));
   schema
       .section(
-          section, Presence::optional,
+          steadySection, Presence::optional,
           "When a flow is steady. A run in time ends, before time.end, once over a whole residence time no field "
           "(velocity, temperature, mass fractions, what particles are carried) has changed by more than the tolerance, "
           "and the changes do not grow; absent: the run goes on to time.end; its closing report says how steady it "

@@ -219,6 +219,10 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
   count(record);
   if (holder() == nullptr) record.resultsJson = steadyJson(residual);
   const auto steepness = flow::flameSteepness(domain_->context, domain_->state);
+  if (search_ && !steepness && case_.mechanism->numReactions() > 0)
+    printWarnings(
+        {"nothing burns in the steady state that was found: a flame that has gone out, or was never lit, is "
+         "steady too"});
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);
   for (const std::string& line : quality_.lines()) fmt::print("{}\n", line);

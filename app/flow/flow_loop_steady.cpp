@@ -83,9 +83,11 @@ void FlowLoop::searchOn(Outputs& outputs) {
   if (search_->isGivenUp()) giveUp(outputs);
 }
 
+// Every other time velocities and pressure have their quickest pace at once.
 void FlowLoop::makeIteration() {
-  iteration_ = std::make_unique<SteadyIteration>(
-      domain_->context, domain_->state, SteadyIteration::Options{.scheme = case_.flow.velocityScheme}, operators_);
+  SteadyIteration::Options options{.scheme = case_.flow.velocityScheme};
+  if (search_->returns() % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
+  iteration_ = std::make_unique<SteadyIteration>(domain_->context, domain_->state, options, operators_);
   backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
 }
 

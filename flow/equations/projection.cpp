@@ -98,11 +98,11 @@ void Projection::assemble() {
   checkPetsc(MatAssemblyEnd(matrix_.get(), MAT_FINAL_ASSEMBLY));
 }
 
-void Projection::saveOrLoad(StateArchive& archive) {
+void Projection::saveOrLoad(StateArchive& archive, const std::string& name) {
   double iterations = iterationsAfterSetup_;
-  archive.shared("pressure_iterations_after_setup", iterations);
+  archive.shared(name + "_iterations_after_setup", iterations);
   setupConductance_.resize(static_cast<std::size_t>(context_.mesh.faces));
-  archive.faces("pressure_preconditioner", setupConductance_, 1);
+  archive.faces(name + "_preconditioner", setupConductance_, 1);
   if (!archive.loading()) return;
   iterationsAfterSetup_ = static_cast<int>(iterations);
   if (iterationsAfterSetup_ < 0) return;  // the next solve makes a new one

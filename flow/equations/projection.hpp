@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -37,11 +38,9 @@ class Projection {
   Result solve(double dt, std::span<const double> inverseDensity, std::span<const double> divergence,
                std::span<double> faceVelocity, std::span<double> change, double slowFlow = 0.0);
 
-  // The next solve makes its preconditioner anew.
-  void forget() { iterationsAfterSetup_ = -1; }
-
-  // The preconditioner is kept as the conductances of the matrix it was made from, and made from them again.
-  void saveOrLoad(StateArchive& archive);
+  // The preconditioner is kept as the conductances of the matrix it was made from, and made from them again. `name`: in
+  // front of those of the pieces.
+  void saveOrLoad(StateArchive& archive, const std::string& name = "pressure");
 
  private:
   // From `guess` to solution_.

@@ -26,8 +26,7 @@ class FlowUpdate {
   // mass over the cell's pseudo-time.
   Result advance(State& state, std::span<const double> inertia);
 
-  // What follows depends on the state alone.
-  void forget() { projection_.forget(); }
+  void saveOrLoad(StateArchive& archive) { projection_.saveOrLoad(archive, "steady_pressure"); }
 
  private:
   void assemble(const State& state, std::span<const double> inertia);

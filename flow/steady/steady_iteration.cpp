@@ -53,7 +53,7 @@ void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   archive.shared("steady_is_anew", anew);
   isAnew_ = anew != 0.0;
   mixing_.clear();
-  flow_.forget();
+  flow_.saveOrLoad(archive);
   if (!archive.loading()) return;
   residual_.evaluate(state);
   measure_ = measure(state);
@@ -73,7 +73,7 @@ void SteadyIteration::setInertia(const State& state) {
   }
   flowInertia_ = inertia_;
   for (std::size_t c = 0; c < inertia_.size(); ++c) inertia_[c] /= courant_ * haste_[c];
-  for (double& value : flowInertia_) value /= options_.flowCourant;
+  for (double& value : flowInertia_) value /= std::clamp(courant_, options_.leastFlowCourant, options_.mostFlowCourant);
 }
 
 double SteadyIteration::ofCarried(const State& state, double through) const {

@@ -28,9 +28,10 @@ class SteadyIteration {
     VelocityScheme scheme = VelocityScheme::Limited;
     // Pseudo-time of a cell over the time in which the gas in it is renewed.
     double firstCourant = 2.0, mostCourant = 1e4;
-    // The same of velocities and pressure, however slow the gas has to go: in a short time the pressure would have to
-    // be large to move all of the mass that a new density moves.
-    double flowCourant = 5.0;
+    // Of velocities and pressure: as slow as the gas, but within these. In a short time the pressure has to be large to
+    // move all of the mass that a new density moves; in a long one it is felt everywhere at once. Some flames come to
+    // rest only with a least of one, others only with the most at all times.
+    double leastFlowCourant = 1.0, mostFlowCourant = 5.0;
     // Outcome::measure below which iterations are accelerated: of a flow whose flame stands where it will stand.
     double accelerated = 3e-4;
   };
@@ -55,7 +56,7 @@ class SteadyIteration {
   [[nodiscard]] const FlowResidual& residual() const { return residual_; }
 
   // What is kept from one iteration to the next; the state has to be loaded before, its halo filled. What is not saved
-  // (the iterations that are combined, the pressure's preconditioner) is begun anew, by who saves too: both go on with
+  // (the iterations that are combined) is begun anew, by who saves too: both go on with
   // the same bits. Collective.
   void saveOrLoad(const State& state, StateArchive& archive);
 

@@ -124,6 +124,11 @@ def main(executable: str, *mpiexec: str) -> int:
         ensembles = folder / "flame/ensembles.yaml"
         text = runs["flow"][0].read_text(encoding="utf-8")
         ensembles.write_text(text[:text.index("trajectories:")], encoding="utf-8")
+        steady = folder / "flame/steady.yaml"  # of cold nitrogen, which is soon steady enough
+        steady.write_text(text.replace("  end: 10 us", "  mode: steady"), encoding="utf-8")
+        cold = ("'N2: 1'", "boundaries.fuel.composition='N2: 1'", "boundaries.oxidiser.composition='N2: 1'")
+        runs["steady"] = (steady, *running.settings(f"initial={{layer: none, composition: {cold[0]}, temperature: 298 K}}", *cold[1:],
+                                                    "boundaries.fuel.swirl_velocity=1 m/s", "time.steady.residual=0.9"))
         # All blocks of an instant: five are soon over.
         runs["flow_ensembles"] = (ensembles, *running.settings(
             "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={particles: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
