@@ -19,8 +19,8 @@ class FailuresOfRank : public testing::EmptyTestEventListener {
   // GoogleTest holds a lock meanwhile, which its current_test_info() waits for.
   void OnTestPartResult(const testing::TestPartResult& result) override {
     if (!result.failed()) return;
-    std::fprintf(stderr, "rank %d: %s, %s:%d: %s\n", rank_, test_.c_str(),
-                 result.file_name() ? result.file_name() : "", result.line_number(), result.message());
+    std::fprintf(stderr, "rank %d: %s, %s:%d: %s\n", rank_, test_.c_str(), result.file_name() ? result.file_name() : "",
+                 result.line_number(), result.message());
   }
 
   int rank_;

@@ -50,8 +50,8 @@ double CarriedTransport::driftToWall(const Gas& gas, int face) const {
 }
 
 // kg/s of gas: the conductance of diffusion to a wall or an inlet.
-double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties, int face,
-                                       int scalar) const {
+double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties,
+                                       int face, int scalar) const {
   const Mesh& m = context_.mesh;
   const double metric = m.area[face] / m.distance[face];
   const double share = state.scalars[scalar].wallDiffusivity;

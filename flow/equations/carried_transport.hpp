@@ -62,8 +62,8 @@ class CarriedTransport {
  private:
   void findDrift(const Gas& gas);
   [[nodiscard]] double driftToWall(const Gas& gas, int face) const;
-  [[nodiscard]] double wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties, int face,
-                                     int scalar) const;
+  [[nodiscard]] double wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties,
+                                     int face, int scalar) const;
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
   void addCrossed(std::span<const double> flux);

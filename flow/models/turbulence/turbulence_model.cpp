@@ -26,8 +26,8 @@ const std::array rows{
     TurbulenceRow{"wang", "Wang's one-equation model, constants as printed", make<WangModel>},
     TurbulenceRow{"sst", "k-omega SST of Menter, Kuntz and Langtry, 2003", make<ShearStressTransport<2003>>},
     TurbulenceRow{"sst1994", "k-omega SST of Menter, 1994", make<ShearStressTransport<1994>>},
-    TurbulenceRow{"k_omega", "k-omega of Wilcox, 2006", make<KOmega<2006>>},
-    TurbulenceRow{"k_omega1988", "k-omega of Wilcox, 1988", make<KOmega<1988>>},
+    TurbulenceRow{"k_omega", "k-omega of 2006 (Wilcox 2008)", make<KOmega<2006>>},
+    TurbulenceRow{"k_omega1988", "k-omega of 1988 (Wilcox 1988)", make<KOmega<1988>>},
 };
 
 }  // namespace

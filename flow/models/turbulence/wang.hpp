@@ -1,4 +1,4 @@
-// Wang's one-equation model, of the k-epsilon and the k-omega model by Bradshaw's relation (F. Wang, thesis 2025,
+// Wang's one-equation model, of the k-epsilon and the k-omega model by Bradshaw's relation (Wang 2025,
 // equations 8-11 and 8-16 to 8-25), with the constants as printed there.
 #pragma once
 
