@@ -155,7 +155,7 @@ void FlowLoop::giveUp(Outputs& outputs) {
                  "no steady state with residuals below {:.2g} was found in {} steps in time and {} iterations{}: {}. A "
                  "flow that moves by itself has none: look at it in time (--restart with 'time.mode: transient' and "
                  "'time.end'); else more iterations (time.steady.iterations, time.steady.returns) may find it, or "
-                 "smaller cells at that place; {}",
+                 "smaller cells at that place, or it is small enough as it is (time.steady.residual); {}",
                  search_->options().residual, search_->steps(), search_->iterations(),
                  search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, kept)));
 }

@@ -20,6 +20,8 @@ constexpr int stepsPerResidual = 10;
 constexpr int patience = 100;
 constexpr double gain = 0.9;
 constexpr int mostFailures = 8;  // one behind the other
+// Of the residual that iterations begin with: with more they run away.
+constexpr double mostGrown = 1e4;
 // Of the heat that iterations begin with; with less the flame has gone out in a time that is none.
 constexpr double leftOfHeat = 0.1;
 
@@ -66,6 +68,10 @@ void SteadySearch::addIteration(double residual, double heatRelease) {
   if (heatRelease < leftOfHeat * heatAtBegin_) {
     goBack(fmt::format("the flame has gone out: {:.3g} W of {:.3g} W were left", heatRelease, heatAtBegin_));
     takesBack_ = true;
+    return;
+  }
+  if (!(residual <= mostGrown * began_)) {
+    goBack(fmt::format("the residual has grown from {:.2e} to {:.2e}", began_, residual));
     return;
   }
   least_ = std::min(least_, residual);

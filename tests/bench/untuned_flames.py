@@ -128,7 +128,7 @@ def main() -> None:
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--seconds", type=float, default=300)
     parser.add_argument("names", nargs="*", choices=[[], *FLAMES])
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     for name, deck in FLAMES.items():
         (options.folder / f"{name}.yaml").write_text(deck, encoding="utf-8")

@@ -118,6 +118,17 @@ TEST(SteadySearch, GoesBackWhereTheResidualStandsStill) {
   EXPECT_THAT(search.whyNot(), HasSubstr("8.90e-02 in 100 iterations"));
 }
 
+TEST(SteadySearch, IterationsThatRunAwayAreTakenBack) {
+  SteadySearch search({});
+  steps(search);
+  search.addIteration(0.9e4 * high, 1.0);
+  EXPECT_EQ(search.phase(), Phase::Iterations);
+  search.addIteration(1.1e4 * high, 1.0);
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_TRUE(search.takesBack());
+  EXPECT_THAT(search.whyNot(), HasSubstr("has grown"));
+}
+
 TEST(SteadySearch, AFlameThatGoesOutIsNoSteadyState) {
   SteadySearch search({.residual = 1e-3});
   steps(search, 20.0);
