@@ -223,6 +223,10 @@ void requireModeOfParticles(const Deck& deck) {
 void readTime(const Deck& deck, FlowCase& flowCase) {
   TimeControl& time = flowCase.time;
   if (isSearched(deck)) {
+    if (flowCase.turbulence.model)
+      throw deck.error(mode,
+                       "a steady state is not sought with a turbulence model, whose eddies follow in time; expected "
+                       "'transient' with 'time.steady'");
     time.search = readSearch(deck, flowCase);
     time.end = std::numeric_limits<double>::infinity();
   } else {

@@ -43,12 +43,4 @@ inline void addTo(Ensemble::Totals& t, const SootAggregate& type, const GivenPar
   addTo(t, p, cubeRoot(type.perVolume() * (p.carbon + p.hydrogen) / p.primaries));
 }
 
-// Ensemble::totals() of a packed one.
-[[nodiscard]] inline Ensemble::Totals packedTotals(const SootAggregate& type, std::span<const double> state) {
-  Ensemble::Totals totals;
-  if (state.size() <= packedHead) return totals;
-  for (PackedDoubles rest(state.subspan(packedHead)); rest.left() > 0;) addTo(totals, type, rest.next<GivenParticle>());
-  return totals;
-}
-
 }  // namespace lampblack::particles

@@ -178,6 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
                 {"boundaries.cold.formula.tangential_velocity='0.1*sin(t)'"},
                 "boundaries.cold: what this boundary has depends on the time t"},
         Refused{"Ensembles", {"stochastic.exchange=one_way"}, "time.mode: ensembles in the cells fluctuate"},
+        Refused{
+            "Turbulence", {"turbulence.model=sa"}, "time.mode: a steady state is not sought with a turbulence model"},
         Refused{"AVesselThatIsFilled", {closed}, "time.mode: a vessel without an outlet"},
         Refused{"AVesselThatIsCooled", {closed, noInlet, "boundaries.cold.temperature=299 K"}, "a vessel without"},
         Refused{
