@@ -156,7 +156,7 @@ struct Refused {
 };
 class SteadyModeRefuses : public testing::TestWithParam<Refused> {};
 
-TEST_P(SteadyModeRefuses, WithWhatToDo) {
+TEST_P(SteadyModeRefuses, SayingWhatIsExpected) {
   std::vector<std::string> settings{steady};
   settings.insert(settings.end(), GetParam().settings.begin(), GetParam().settings.end());
   EXPECT_THAT(test::messageOf<InputError>([&] { readFlowCase(channel(settings)); }), HasSubstr(GetParam().message));
