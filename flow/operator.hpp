@@ -74,8 +74,11 @@ class Operator {
   // this state alone. `rates` has the sizes of State::balance. For operators that change the state by means other than
   // transport.
   virtual void addRates(const State&, State::Balance& /*rates*/) {}
+  // Whether addRates() makes or takes any of what is carried: where the gas rests, only such an operator is asked.
+  [[nodiscard]] virtual bool actsOnCarried() const { return false; }
   // Derivatives of what addRates() adds in the owned cells, a dense matrix a cell, one behind the other, column-major.
-  // They steer iterations towards a steady state, which does not depend on them: what is small may be left out.
+  // They steer iterations towards a steady state, which does not depend on them: what is small may be left out. What is
+  // empty is not asked for.
   struct Slopes {
     // Rows: kg/m^3/s of each species, then W/m^3; columns: mass fractions at constant pressure, then the temperature.
     std::span<double> gas;

@@ -35,6 +35,7 @@ FlowResidual::FlowResidual(const FlowContext& context, const State& state, Veloc
   if (state.swirls) rates_.angularMomentum.resize(owned);
   rates_.massFlux.resize(conducted_.size());
   rates_.made = {std::vector<double>(owned * n), {}, {}, std::vector<double>(owned), rates_.carried, rates_.carried};
+  if (scalars > 0) carriedMade_ = rates_.made;
 }
 
 const FlowResidual::Rates& FlowResidual::evaluate(const State& state) {
@@ -67,6 +68,19 @@ const FlowResidual::Rates& FlowResidual::evaluateFlow(const State& state) {
   return rates_;
 }
 
+const FlowResidual::Rates& FlowResidual::evaluateCarried(const State& state) {
+  faces_.prepare(state, state.Y);
+  std::ranges::fill(rates_.carried, 0.0);
+  carriedMade_.clear();
+  for (Operator* op : operators_)
+    if (op->actsOnCarried()) op->addRates(state, carriedMade_);
+  std::swap(rates_.made.carried, carriedMade_.carried);
+  std::swap(rates_.made.carriedSink, carriedMade_.carriedSink);
+  addMadeOfCarried(state);
+  addCarried(state);
+  return rates_;
+}
+
 void FlowResidual::addGas(const State& state) {
   const Mesh& m = context_.mesh;
   heatConduction_.presentFlux(state, conducted_);
@@ -81,7 +95,7 @@ void FlowResidual::addGas(const State& state) {
 
 void FlowResidual::addMade(const State& state) {
   const Mesh& m = context_.mesh;
-  const std::size_t n = row_.size(), scalars = state.scalars.size();
+  const std::size_t n = row_.size();
   std::ranges::fill(rates_.made.reactions, 0.0);
   rates_.made.clear();
   for (Operator* op : operators_) op->addRates(state, rates_.made);
@@ -93,10 +107,17 @@ void FlowResidual::addMade(const State& state) {
       rates_.mass[cell] += m.volume[c] * row_[k];
     }
     rates_.enthalpy[cell] += m.volume[c] * rates_.made.enthalpy[cell];
-    for (std::size_t i = cell * scalars; i < (cell + 1) * scalars; ++i)
-      if (state.scalars[i - cell * scalars].isTransported)
-        rates_.carried[i] += m.volume[c] * (rates_.made.carried[i] - rates_.made.carriedSink[i] * state.carried[i]);
   }
+  addMadeOfCarried(state);
+}
+
+void FlowResidual::addMadeOfCarried(const State& state) {
+  const Mesh& m = context_.mesh;
+  const std::size_t scalars = state.scalars.size();
+  for (std::size_t i = 0; i < rates_.carried.size(); ++i)
+    if (state.scalars[i % scalars].isTransported)
+      rates_.carried[i] +=
+          m.volume[i / scalars] * (rates_.made.carried[i] - rates_.made.carriedSink[i] * state.carried[i]);
 }
 
 void FlowResidual::addCarried(const State& state) {

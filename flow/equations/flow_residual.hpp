@@ -48,6 +48,9 @@ class FlowResidual {
   // changed: its properties, and all other rates, are those of the last state.
   const Rates& evaluateFlow(const State& state);
 
+  // Collective. The same of what is carried alone, where it or a gas of about the last state has changed.
+  const Rates& evaluateCarried(const State& state);
+
   // Of the last state that was evaluated.
   [[nodiscard]] const Rates& rates() const { return rates_; }
   [[nodiscard]] const GasProperties& properties() const { return properties_; }
@@ -61,6 +64,7 @@ class FlowResidual {
   void addGas(const State& state);
   void addMade(const State& state);
   void addCarried(const State& state);
+  void addMadeOfCarried(const State& state);
   void findForces(const State& state);
 
   const FlowContext& context_;
@@ -75,6 +79,7 @@ class FlowResidual {
   MomentumForces forces_;
   FaceVelocity faceVelocity_;
   Rates rates_;
+  State::Balance carriedMade_;                          // of the operators that act on what is carried
   std::vector<double> conducted_;                       // W, a face
   std::vector<double> acceleration_, velocityOfFaces_;  // m/s2, a component and cell; m/s
   std::vector<double> row_;

@@ -241,9 +241,10 @@ void CarriedOperator::addSlopes(const State& state, const Slopes& slopes) {
     gas = gasOfCell(context_, state, c, viscosityOf(state, c), species, concentrations_);
     std::ranges::fill(J, 0.0);
     model_.jacobian(gas, densities(state, c), {J, columns});
-    double* carried = &slopes.carried[at(c, all * all)];
-    for (std::size_t s = 0; s < scalars_; ++s)
-      for (std::size_t by = 0; by < scalars_; ++by) carried[(first_ + by) * all + first_ + s] += J[s * columns + by];
+    for (std::size_t s = 0; s < scalars_ && !slopes.carried.empty(); ++s)
+      for (std::size_t by = 0; by < scalars_; ++by)
+        slopes.carried[at(c, all * all) + (first_ + by) * all + first_ + s] += J[s * columns + by];
+    if (slopes.gas.empty()) return;
     double* ofGas = &slopes.gas[at(c, width * width)];
     for (std::size_t i = 0; i < species.size(); ++i)
       for (std::size_t by = 0; by < species.size(); ++by)

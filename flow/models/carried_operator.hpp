@@ -49,6 +49,7 @@ class CarriedOperator : public Operator {
   void advance(State& state, double time, double dt) override;
   void endSweep(State& state) override;
   void addRates(const State& state, State::Balance& rates) override;
+  [[nodiscard]] bool actsOnCarried() const override { return true; }
   void addSlopes(const State& state, const Slopes& slopes) override;
   void setDiffusivities(State& state) override;
   void endStep(State& state) override;

@@ -4,24 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <iterator>
 
 namespace lampblack::flow {
 namespace {
 
-constexpr double carriedReduction = 0.1;  // of the linear system's residual
+constexpr double carriedReduction = 0.01;  // of the linear system's residual
 constexpr int mostCarriedIterations = 60;
 // What an iteration leaves of an amount at least and at most; and at most, of the largest amount anywhere, beside that.
-constexpr double leastLeft = 0.1, mostLeft = 10.0, mostBeside = 0.1;
+constexpr double leastLeft = 0.1, mostLeft = 10.0, mostBeside = 1e-4;
 
 }  // namespace
 
-CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators)
-    : context_(context),
-      operators_(std::move(operators)),
-      n_(state.scalars.size()),
-      system_(context.mesh, context.halo, n_),
-      scales_(n_) {
+CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, const std::vector<Operator*>& operators)
+    : context_(context), n_(state.scalars.size()), system_(context.mesh, context.halo, n_), scales_(n_) {
+  std::ranges::copy_if(operators, std::back_inserter(operators_), &Operator::actsOnCarried);
+  slopes_.resize(static_cast<std::size_t>(context.mesh.owned) * n_ * n_);
   right_.resize(static_cast<std::size_t>(context.mesh.owned) * n_);
   change_.resize(static_cast<std::size_t>(context.mesh.cells) * n_);
   conductance_.resize(static_cast<std::size_t>(context.mesh.faces) * n_);
@@ -38,9 +36,10 @@ void CarriedUpdate::findScales(const State& state) {
     if (scale <= 0.0) scale = 1.0;
 }
 
-void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia,
-                             std::span<const double> slopes) {
+void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia) {
   const Mesh& m = context_.mesh;
+  std::ranges::fill(slopes_, 0.0);
+  for (Operator* op : operators_) op->addSlopes(state, {{}, slopes_});
   const FlowResidual::Rates& rates = residual.rates();
   system_.clear();
   for (int cell = 0; cell < m.owned; ++cell) {
@@ -52,7 +51,7 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
       right_[c * n_ + s] = moves ? (rates.carried[c * n_ + s] - perMass * rates.mass[c]) / scales_[s] : 0.0;
       for (std::size_t by = 0; by < n_ && moves; ++by)
         block[by * n_ + s] -=
-            m.volume[c] * state.density[c] * slopes[(c * n_ + by) * n_ + s] * scales_[by] / scales_[s];
+            m.volume[c] * state.density[c] * slopes_[(c * n_ + by) * n_ + s] * scales_[by] / scales_[s];
     }
     system_.addInertia(cell, inertia[c]);
   }
@@ -73,16 +72,15 @@ void CarriedUpdate::take(State& state, int cell) const {
   for (std::size_t s = 0; s < n_; ++s) {
     double& amount = state.carried[c * n_ + s];
     const double present = amount / state.density[c], change = scales_[s] * change_[c * n_ + s];
-    const double least = present > 0.0 ? leastLeft * present : std::min(present, 0.0);
+    const double least = leastLeft * std::max(present, 0.0);
     const double most = mostLeft * std::max(present, 0.0) + mostBeside * scales_[s];
     amount = state.density[c] * std::clamp(present + change, least, most);
   }
 }
 
-int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
-                           std::span<const double> slopes) {
+int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
   findScales(state);
-  assemble(state, residual, inertia, slopes);
+  assemble(state, residual, inertia);
   const BlockSystem::Result result = system_.solve(right_, change_, carriedReduction, mostCarriedIterations);
   for (int c = 0; c < context_.mesh.owned; ++c) take(state, c);
   for (Operator* op : operators_) op->setDiffusivities(state);

@@ -1,6 +1,7 @@
 // The implicit change of what a flow carries in an iteration towards the steady state (docs/theory/flow.md, "The steady
 // state"), behind the gas: in every cell a dense block of inertia, transport and the derivatives of its sources,
-// between cells diffusion and convection upwind of first order, with what drifts by thermophoresis.
+// between cells diffusion and convection upwind of first order, with what drifts by thermophoresis. No amount is below
+// zero then.
 #pragma once
 
 #include <span>
@@ -18,18 +19,16 @@ namespace lampblack::flow {
 class CarriedUpdate {
  public:
   // Collective. The state carries something.
-  CarriedUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators);
+  CarriedUpdate(const FlowContext& context, const State& state, const std::vector<Operator*>& operators);
 
-  // Collective. The residual is of the state but for its gas, which may have changed since; `inertia` (kg/s, owned
-  // cells): mass over the cell's pseudo-time; `slopes`: Operator::Slopes::carried. The halo is filled then, and what
-  // the operators tell transport of their scalars is that of the new state. The iterations of the linear solver.
-  int advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
-              std::span<const double> slopes);
+  // Collective. The residual is of the state, what is carried at least; `inertia` (kg/s, owned cells): mass over the
+  // cell's pseudo-time. The halo is filled then, and what the operators tell transport of their scalars is that of the
+  // new state. The iterations of the linear solver.
+  int advance(State& state, const FlowResidual& residual, std::span<const double> inertia);
 
  private:
   void findScales(const State& state);
-  void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia,
-                std::span<const double> slopes);
+  void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
   void take(State& state, int cell) const;
 
   const FlowContext& context_;
@@ -37,6 +36,7 @@ class CarriedUpdate {
   std::size_t n_;
   BlockSystem system_;
   std::vector<double> scales_;  // largest amount per kg of gas, of each scalar: the unit of the linear system
+  std::vector<double> slopes_;  // Operator::Slopes::carried
   std::vector<double> right_, change_, conductance_, flux_;
 };
 

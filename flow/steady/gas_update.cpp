@@ -42,7 +42,6 @@ GasUpdate::GasUpdate(const FlowContext& context, const State& state, std::vector
       capacities_(n_) {
   const auto owned = static_cast<std::size_t>(context.mesh.owned), width = n_ + 1;
   slopes_.resize(owned * width * width);
-  carriedSlopes_.resize(owned * state.scalars.size() * state.scalars.size());
   right_.resize(owned * width);
   shares_.resize(owned);
   change_.resize(static_cast<std::size_t>(context.mesh.cells) * width);
@@ -85,8 +84,7 @@ void GasUpdate::assembleBlock(const State& state, const FlowResidual& residual, 
 void GasUpdate::assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia) {
   const Mesh& m = context_.mesh;
   std::ranges::fill(slopes_, 0.0);
-  std::ranges::fill(carriedSlopes_, 0.0);
-  for (Operator* op : operators_) op->addSlopes(state, {slopes_, carriedSlopes_});
+  for (Operator* op : operators_) op->addSlopes(state, {slopes_, {}});
   system_.clear();
   for (int c = 0; c < m.owned; ++c) {
     assembleBlock(state, residual, c);

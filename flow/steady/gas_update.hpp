@@ -33,8 +33,6 @@ class GasUpdate {
   // NumericsError where there is none.
   Result advance(State& state, const FlowResidual& residual, std::span<const double> inertia);
 
-  // d(kg/m^3/s or W/m^3 of what is carried), of the last advance(), Operator::Slopes.
-  [[nodiscard]] std::span<const double> carriedSlopes() const { return carriedSlopes_; }
   // Of an owned cell, the share that the last advance() took of what the linear system gave.
   [[nodiscard]] std::span<const double> shares() const { return shares_; }
 
@@ -48,7 +46,7 @@ class GasUpdate {
   std::vector<Operator*> operators_;
   std::size_t n_;
   BlockSystem system_;
-  std::vector<double> slopes_, carriedSlopes_;
+  std::vector<double> slopes_;
   std::vector<double> right_, change_, shares_;
   std::vector<double> made_, enthalpies_, capacities_;
 };

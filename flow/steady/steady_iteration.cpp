@@ -20,6 +20,11 @@ constexpr double toleratedFirst = 100.0, tolerated = 4.0;
 constexpr double forgets = 2.0;  // growth with which the earlier iterations are of no use
 // Velocities and pressure, which cost little beside a gas of many species, are changed so many times in an iteration.
 constexpr int flowPasses = 3;
+// So is what is carried, which in a gas that rests moves on by a cell each time.
+constexpr int carriedPasses = 3;
+// Of what is carried, at most: where particles burn in a few cells their number and mass have to go together, and do
+// not where an iteration has them pass more than a cell.
+constexpr double mostCarriedCourant = 1.0;
 constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
@@ -40,6 +45,7 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       mixing_(context.mesh.comm, acceleratedDepth),
       courant_(options.firstCourant),
       inertia_(static_cast<std::size_t>(context.mesh.owned)),
+      carriedInertia_(inertia_.size()),
       haste_(inertia_.size(), 1.0) {
   if (!state.scalars.empty()) carried_.emplace(context, state, operators_);
   residual_.evaluate(state);
@@ -142,8 +148,6 @@ std::vector<double> SteadyIteration::unknownsOf(const State& state) const {
   for (const std::vector<double>* field :
        {&state.Y, &state.temperature, &state.velocity, &state.swirl, &state.pressure, &state.massFlux})
     all.insert(all.end(), field->begin(), field->end());
-  const std::size_t n = state.scalars.size();
-  for (std::size_t i = 0; i < state.carried.size(); ++i) all.push_back(state.carried[i] / state.density[i / n]);
   return all;
 }
 
@@ -151,32 +155,25 @@ std::vector<double> SteadyIteration::unknownsOf(const State& state) const {
 std::vector<double> SteadyIteration::weights(const State& state) const {
   const Mesh& m = context_.mesh;
   std::vector<double> all;
-  const auto add = [&](std::span<const double> values, std::size_t components, bool isEach) {
+  const auto add = [&](std::span<const double> values, std::size_t components) {
     if (values.empty()) return;
-    std::vector<double> ends(2 * components, -1e300);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(m.owned) * components; ++i) {
-      const std::size_t k = isEach ? i % components : 0;
-      ends[2 * k] = std::max(ends[2 * k], values[i]);
-      ends[2 * k + 1] = std::max(ends[2 * k + 1], -values[i]);
-    }
-    MPI_Allreduce(MPI_IN_PLACE, ends.data(), static_cast<int>(ends.size()), MPI_DOUBLE, MPI_MAX, m.comm);
+    std::array<double, 2> ends{-1e300, -1e300};
+    for (std::size_t i = 0; i < static_cast<std::size_t>(m.owned) * components; ++i)
+      ends = {std::max(ends[0], values[i]), std::max(ends[1], -values[i])};
+    MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2, MPI_DOUBLE, MPI_MAX, m.comm);
+    const double range = ends[0] + ends[1];
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::size_t cell = i / components, k = isEach ? i % components : 0;
-      const double range = ends[2 * k] + ends[2 * k + 1];
+      const std::size_t cell = i / components;
       all.push_back(cell < static_cast<std::size_t>(m.owned) && range > 0.0 ? m.volume[cell] / (range * range) : 0.0);
     }
   };
   const auto n = static_cast<std::size_t>(state.species), d = static_cast<std::size_t>(state.dimension);
-  add(state.Y, n, false);
-  add(state.temperature, 1, false);
-  add(state.velocity, d, false);
-  add(state.swirl, 1, false);
-  add(state.pressure, 1, false);
+  add(state.Y, n);
+  add(state.temperature, 1);
+  add(state.velocity, d);
+  add(state.swirl, 1);
+  add(state.pressure, 1);
   all.insert(all.end(), state.massFlux.size(), 0.0);  // follow from velocities and pressure
-  std::vector<double> perMass(state.carried);
-  const std::size_t scalars = state.scalars.size();
-  for (std::size_t i = 0; i < perMass.size(); ++i) perMass[i] /= state.density[i / scalars];
-  add(perMass, scalars, true);
   return all;
 }
 
@@ -212,13 +209,23 @@ void SteadyIteration::accelerate(State& state) {
     const auto c = static_cast<std::size_t>(cell);
     const std::span<const double> Y{&state.Y[c * n], n};
     checkTemperature(state.temperature[c]);
+    const double before = state.density[c];
     state.density[c] = context_.thermo.density(state.temperature[c], state.thermodynamicPressure, Y);
     state.enthalpy[c] = context_.thermo.enthalpyMass(state.temperature[c], Y);
-    for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] = *from++ * state.density[c];
+    for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
   });
   keepMass(state, massOf(*before_));
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
+}
+
+void SteadyIteration::advanceCarried(State& state) {
+  const double slower = courant_ / std::min(courant_, mostCarriedCourant);
+  for (std::size_t c = 0; c < inertia_.size(); ++c) carriedInertia_[c] = slower * inertia_[c];
+  for (int pass = 0; pass < carriedPasses; ++pass) {
+    residual_.evaluateCarried(state);
+    carried_->advance(state, residual_, carriedInertia_);
+  }
 }
 
 SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
@@ -236,7 +243,6 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
       const double share = gas_.shares()[c];
       haste_[c] = std::clamp(haste_[c] * (share < 1.0 ? std::max(share, mostSlowed) : catchesUp), leastHaste, 1.0);
     }
-    if (carried_) carried_->advance(state, residual_, inertia_, gas_.carriedSlopes());
     for (int pass = 0; pass < flowPasses; ++pass) {
       residual_.evaluateFlow(state);
       const FlowUpdate::Result flow = flow_.advance(state, flowInertia_);
@@ -247,6 +253,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
       accelerate(state);
     else
       mixing_.clear();
+    if (carried_) advanceCarried(state);
     residual_.evaluate(state);
     measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {

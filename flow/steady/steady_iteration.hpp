@@ -1,8 +1,8 @@
 // Iterations that bring a flow to its steady state, where nothing is left of its equations (FlowResidual): implicit in
 // a pseudo-time of every cell's own, which grows as the residual falls (switched evolution relaxation, Mulder and van
-// Leer 1985; Kelley and Keyes 1998). In each iteration species and temperature change together (GasUpdate), then what
-// is carried (CarriedUpdate), then velocities and pressure for the new density (FlowUpdate). docs/theory/flow.md, "The
-// steady state".
+// Leer 1985; Kelley and Keyes 1998). In each iteration species and temperature change together (GasUpdate), then
+// velocities and pressure for the new density (FlowUpdate), then what is carried (CarriedUpdate). docs/theory/flow.md,
+// "The steady state".
 #pragma once
 
 #include <optional>
@@ -69,6 +69,7 @@ class SteadyIteration {
   [[nodiscard]] std::vector<double> unknownsOf(const State& state) const;
   [[nodiscard]] std::vector<double> weights(const State& state) const;
   void setInertia(const State& state);
+  void advanceCarried(State& state);
   // Of the state that was evaluated: what is left of all equations over what goes through the cells.
   [[nodiscard]] double measure(const State& state) const;
   [[nodiscard]] double ofCarried(const State& state, double through) const;
@@ -84,8 +85,8 @@ class SteadyIteration {
   double courant_;
   bool isAnew_ = true;  // the first iteration, or the last has failed
   double measure_ = 0.0;
-  std::vector<double> inertia_, flowInertia_;  // kg/s, owned cells
-  std::vector<double> haste_;                  // owned cells: of the pseudo-time that others have
+  std::vector<double> inertia_, carriedInertia_, flowInertia_;  // kg/s, owned cells
+  std::vector<double> haste_;                                   // owned cells: of the pseudo-time that others have
   std::optional<State> before_;
 };
 

@@ -22,6 +22,12 @@ class EqualSpheres {
 
   [[nodiscard]] double density() const { return density_; }
 
+  // The mass (kg/m3) whose rates are taken: particles that no mass is left of are still nuclei, and go as fast as these
+  // burn. Were they to stay, their rate would jump where the last of the mass goes.
+  [[nodiscard]] static double possibleMass(double number, double mass) {
+    return std::max(mass, number > 0 ? leastMass : 0.0);
+  }
+
   // The number (1/m3) whose rates are taken where there are `number` particles and `mass` (kg/m3): no mean particle is
   // smaller than a nucleus or larger than 1e12 of them (some 10 um).
   [[nodiscard]] double possibleNumber(double number, double mass) const {
@@ -70,6 +76,7 @@ class EqualSpheres {
   }
 
  private:
+  static constexpr double leastMass = 1e-60;  // kg/m3, far less than one atom in any domain
   double density_, nucleus_;
 };
 

@@ -25,7 +25,9 @@ class HotDust : public Operator {
     for (int c = 0; c < mesh_.owned; ++c)
       rates.carried[at(c)] += made * state.temperature[at(c)] - state.carried[at(c)] / lifetime;
   }
+  [[nodiscard]] bool actsOnCarried() const override { return true; }
   void addSlopes(const State&, const Slopes& slopes) override {
+    if (slopes.carried.empty()) return;
     for (int c = 0; c < mesh_.owned; ++c) slopes.carried[at(c)] -= 1.0 / lifetime;
   }
 

@@ -65,7 +65,7 @@ SemiEmpiricalSoot::SemiEmpiricalSoot(const SemiEmpiricalOptions& options)
 
 SemiEmpiricalSoot::Rates SemiEmpiricalSoot::evaluate(const ParticleGas& gas, std::span<const double> densities) const {
   const SemiEmpiricalOptions& o = options_;
-  const double T = gas.temperature, mass = std::max(densities[carbon], 0.0);
+  const double T = gas.temperature, mass = EqualSpheres::possibleMass(densities[number], densities[carbon]);
   const double present = std::max(densities[number], 0.0), possible = spheres_.possibleNumber(densities[number], mass);
   const double diameter = spheres_.diameter(possible, mass), surface = spheres_.surface(possible, mass);
   const auto concentration = [&](Gas species) { return std::max(gas.concentrations[species], 0.0); };

@@ -31,7 +31,7 @@ DimerSoot::DimerSoot(SootModelOptions options)
 TwoEquationSoot::Population DimerSoot::populationOf(std::span<const double> densities) const {
   TwoEquationSoot::Population p;
   const SootModelOptions& o = model_.options();
-  p.carbon = std::max(densities[carbon], 0.0);
+  p.carbon = EqualSpheres::possibleMass(densities[number], densities[carbon]);
   p.number = spheres_.possibleNumber(densities[number], p.carbon);
   p.hydrogen =
       std::clamp(densities[hydrogen], 0.0, largestHydrogenToCarbon * o.hydrogenWeight / o.carbonWeight * p.carbon);

@@ -115,6 +115,28 @@ TEST_P(EverySootModel, DensitiesOfGasAloneMakeSootOnlyByNucleation) {
   EXPECT_EQ(model->volumeFraction(s.densities), 0);
 }
 
+// A state beside one that has lost the last of its mass, as transport leaves them, has its rates: a jump would be a
+// derivative without bounds.
+TEST_P(EverySootModel, RatesDoNotJumpWhereTheLastMassGoes) {
+  const auto model = published(GetParam());
+  const std::size_t n = model->scalars().size();
+  test::RandomStates states(500);
+  std::vector<double> none(n), trace(n), exchange(model->gasSpecies().size());
+  for (int i = 0; i < 20; ++i) {
+    test::ModelState s = states.next(*model);
+    s.connect();
+    std::vector<double> withTrace = s.densities;
+    for (std::size_t k = 0; k < n; ++k)
+      if (!model->scalars()[k].elements.empty()) {
+        withTrace[k] *= 1e-30;
+        s.densities[k] = 0;
+      }
+    model->sources(s.gas, s.densities, none, exchange);
+    model->sources(s.gas, withTrace, trace, exchange);
+    for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(none[k] / trace[k], 1, 1e-6) << i << " " << k;
+  }
+}
+
 // Where a solver has left a trace of mass and no particles to speak of, there is no size to tell: a two-equation
 // model's ratio of them would be some 10 um, the largest that counts.
 TEST_P(EverySootModel, ResultsHaveNoSizesOfTraces) {
