@@ -2,7 +2,9 @@
 // every bit of a cell without soot.
 #include "flow/models/carried_operator.hpp"
 
+#include <cmath>
 #include <cstring>
+#include <map>
 #include <memory>
 
 #include "app/deck/soot_deck.hpp"
@@ -134,6 +136,44 @@ TEST_P(EveryModel, HasTheRatesByWhichAShortStepChangesTheCells) {
   }
   EXPECT_GT(most.back(), 0.0);
   for (std::size_t i = 0; i < most.size(); ++i) EXPECT_LE(differs[i], 2e-3 * most[i]) << i;  // sections may be empty
+}
+
+// Along a change of all scalars, in which each has another share.
+TEST_P(EveryModel, TellsHowItsRatesDependOnWhatIsCarried) {
+  Flame flame(MPI_COMM_WORLD, test::sootingGas, deckLines());
+  operatorOf(flame).advance(flame.state, 0.0, 1e-4);
+  CarriedOperator particles = operatorOf(flame);
+  ASSERT_TRUE(particles.actsOnCarried());
+  const std::size_t n = flame.state.scalars.size(), width = static_cast<std::size_t>(flame.state.species) + 1,
+                    owned = static_cast<std::size_t>(flame.mesh.owned);
+  std::vector<double> alone(owned * n * n), beside(alone), ofGas(owned * width * width), gasAlone(ofGas);
+  particles.addSlopes(flame.state, {{}, alone});
+  particles.addSlopes(flame.state, {gasAlone, {}});
+  particles.addSlopes(flame.state, {ofGas, beside});
+  EXPECT_EQ(alone, beside);
+  EXPECT_EQ(gasAlone, ofGas);
+  const auto share = [n](std::size_t i) { return 1e-4 * std::cos(static_cast<double>(i % n)); };
+  const auto ratesAt = [&](double sign) {
+    State state = flame.state;
+    for (std::size_t i = 0; i < owned * n; ++i) state.carried[i] *= 1.0 + sign * share(i);
+    State::Balance rates = state.balance;
+    rates.clear();
+    particles.addRates(state, rates);
+    return rates.carried;
+  };
+  const std::vector<double> less = ratesAt(-1.0), more = ratesAt(1.0);
+  std::map<std::string, double> most;  // of a unit: sections may be empty
+  std::vector<double> differs(n, 0.0);
+  for (std::size_t i = 0; i < owned * n; ++i) {
+    const std::size_t s = i % n, first = i - s;
+    double slope = 0.0;
+    for (std::size_t by = 0; by < n; ++by)
+      slope += alone[(first + by) * n + s] * 2.0 * share(by) * flame.state.carried[first + by];
+    double& ofUnit = most[flame.state.scalars[s].unit];
+    ofUnit = std::max(ofUnit, std::abs(slope));
+    differs[s] = std::max(differs[s], std::abs(more[i] - less[i] - slope));
+  }
+  for (std::size_t s = 0; s < n; ++s) EXPECT_LE(differs[s], 1e-3 * most.at(flame.state.scalars[s].unit)) << s;
 }
 
 TEST_P(EveryModel, LeavesEveryBitOfACellWithoutSoot) {
