@@ -276,6 +276,69 @@ struct EvenEddies {
   }
 };
 
+// What the operator finds of a cell and makes of rates: a sink steeper than in proportion, and a source that grows by
+// itself and falls with the other variable.
+struct Probe {
+  static constexpr bool needsWallDistance = false, needsStrainGradient = false;
+  [[nodiscard]] std::string name() const { return "probe"; }
+  [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return {{"a", "1", ""}, {"b", "1", ""}}; }
+  [[nodiscard]] std::array<double, 2> freeStream(const FreeStream& stream) const { return {stream.energy, 3.0}; }
+  [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
+    const double a = cell.values[0], b = cell.values[1];
+    return {.eddyViscosity = cell.stretching,
+            .source = {cell.strain, cell.vorticity + 5.0 * b - 40.0 * a},
+            .sink = {a * a, 0.0}};
+  }
+};
+
+// Of a linear flow, plane and about an axis: u = (A x + C y, B x + E y).
+TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const double A = 30.0, B = 90.0, E = -20.0, length = 0.007, a = 2.0, b = 3.0;
+  for (const bool isRound : {false, true}) {
+    SCOPED_TRACE(isRound);
+    const double C = isRound ? 0.0 : -40.0, hoop = isRound ? A : 0.0, dilatation = A + E + hoop;
+    std::vector<Side> sides;
+    for (const int axis : {0, 1})
+      for (const bool isAtMax : {false, true})
+        sides.push_back(
+            side(isRound && axis == 0 && !isAtMax ? BoundaryKind::Symmetry : BoundaryKind::Wall, axis, isAtMax));
+    const auto axis = uniformAxis(length, 7);
+    Box box(isRound ? Geometry::Axisymmetric : Geometry::Planar, {axis, axis}, sides, gas);
+    const auto model = std::make_shared<PointwiseModel<Probe>>();
+    State state =
+        box.stateWith({TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+                      [&](const Vector3& x) {
+                        return Box::Local{{A * x[0] + C * x[1], B * x[0] + E * x[1]}, 300.0, air};
+                      });
+    GasProperties properties;
+    properties.viscosity.assign(state.density.size(), 1.8e-5);
+    TurbulenceOperator turbulence(box.context, state, model, properties);
+    turbulence.setStart(state, {nu, nu, a});
+    State::Balance rates = state.balance;
+    turbulence.addRates(state, rates);
+    turbulence.advance(state, 0.0, 0.0);
+    const double strain =
+        std::sqrt(2.0 * (A * A + E * E + hoop * hoop) + (B + C) * (B + C) - 2.0 / 3.0 * dilatation * dilatation);
+    int inside = 0;
+    for (int c = 0; c < box.mesh.owned; ++c) {
+      const Vector3& x = box.mesh.centre[at(c)];
+      if (std::max(std::abs(x[0] - 0.5 * length), std::abs(x[1] - 0.5 * length)) > 0.3 * length) continue;
+      ++inside;
+      const double density = state.density[at(c)];
+      expectShare(rates.carried[at(2 * c)], density * (strain + 2.0 * a * a * a), 1e-5);
+      expectShare(rates.carriedSink[at(2 * c)], 3.0 * a * a, 1e-5);
+      EXPECT_NEAR(rates.carried[at(2 * c)] / density - rates.carriedSink[at(2 * c)] * a, strain - a * a * a, 1e-8);
+      expectShare(rates.carried[at(2 * c + 1)], density * (std::abs(B - C) + 5.0 * b - 40.0 * a), 1e-9);
+      EXPECT_EQ(rates.carriedSink[at(2 * c + 1)], 0.0);
+      EXPECT_NEAR(state.eddyViscosity[at(c)] / density, 0.25 * B * B * hoop, 1e-6);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &inside, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(inside, 25);
+  }
+}
+
 // A stream of fuel into warm air beside a wall, with a passive scalar that eddies spread.
 State mixed(std::optional<double> eddies, int sweeps, std::optional<Split> split, EddyNumbers numbers = {}) {
   Gas& gas = Gas::hydrogen();
