@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "particles/ensemble/ensemble.hpp"
+#include "tests/effort.hpp"
 #include "tests/every_module.hpp"
 
 namespace lampblack::app {
@@ -115,7 +116,7 @@ Sectional solveSectional(const CarrierGas& gas, bool transition, double v0, doub
   };
   for (double t = 0; t < time;) {
     const auto k1 = rates(n);
-    const double dt = std::min(0.1 / fastest, time - t);
+    const double dt = std::min(test::fewOrMany(0.3, 0.1) / fastest, time - t);
     std::vector<double> middle = n;
     for (std::size_t i = 0; i < sections; ++i) middle[i] += 0.5 * dt * k1[i];
     const auto k2 = rates(middle);
@@ -145,7 +146,8 @@ void compareWithSections(CollisionKernelType kernel, const CarrierGas& gas, doub
   ASSERT_LT(fine.massError, 1e-9);
   ASSERT_LT(fine.number, 0.05 * n0);
   Repeats number, spread;
-  for (std::uint64_t repeat = 0; repeat < 96; ++repeat) {
+  const auto repeats = test::fewOrMany<std::uint64_t>(32, 96);
+  for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
     const auto soot = coagulated({.type = kernel}, gas, repeat, 8192, mass, n0, time);
     number.values.push_back(soot->totals().number / n0);
     spread.values.push_back(soot->geometricDeviation());
