@@ -87,7 +87,8 @@ class SplitReactor {
     OdeSystem* system = nullptr;
     // kg/m3 of gas and particles, and Pa, in the state y at x.
     std::function<double(double x, const double*y)> density, pressure;
-    std::function<double(const double* y)> timePerUnit;  // s, of the independent variable
+    // s, of the independent variable, which is time unless this says otherwise.
+    std::function<double(const double* y)> timePerUnit = [](const double*) { return 1.0; };
     enum class Kept { temperature, enthalpy, internalEnergy };
     std::vector<Kept> kept{Kept::enthalpy};
     std::function<double(double x)> nextStop;  // a kink of the equations behind x; may be empty

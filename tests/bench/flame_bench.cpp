@@ -7,7 +7,6 @@
 #include <mpi.h>
 #include <petscsys.h>
 
-#include <ctime>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "flow/flame/flame_solver.hpp"
 #include "flow/flame/initial_flame.hpp"
+#include "tests/bench/processor_time.hpp"
 #include "tests/every_module.hpp"
 #include "tests/flow/flame/streams.hpp"
 
@@ -24,10 +24,6 @@ namespace {
 using namespace lampblack;
 using namespace lampblack::app;
 using MechanismPointer = std::shared_ptr<const Mechanism>;
-
-double secondsSince(std::clock_t start) {
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 struct Case {
   const char *name, *mechanism;
@@ -100,10 +96,11 @@ void solve(const Case& c) {
   options.grid = c.grid;
   problem.transport = c.transport;
   const double start = MPI_Wtime();
-  const std::clock_t clock = std::clock();
+  const double started = bench::processorSeconds();
   FlameSolver solver(MPI_COMM_WORLD, mechanism, problem, nullptr, options);
   std::vector<double> stageEnds;
-  solver.onStage([&](const FlameStage&, const FlameProfile&) { stageEnds.push_back(secondsSince(clock)); });
+  solver.onStage(
+      [&](const FlameStage&, const FlameProfile&) { stageEnds.push_back(bench::processorSeconds() - started); });
   const auto solution = solver.solve(initialFlame(*mechanism, problem, 0));
   const double seconds = MPI_Wtime() - start;
   int rank = 0;

@@ -11,7 +11,6 @@
 #include <array>
 #include <cmath>
 #include <cstdlib>
-#include <ctime>
 #include <memory>
 #include <string>
 
@@ -20,6 +19,7 @@
 #include "core/mesh_connect.hpp"
 #include "core/mesh_distribution.hpp"
 #include "tests/bench/memory_use.hpp"
+#include "tests/bench/processor_time.hpp"
 #include "tests/every_module.hpp"
 
 namespace lampblack::bench {
@@ -58,9 +58,9 @@ class Stages {
     forgetPeakMemory();
     MPI_Barrier(MPI_COMM_WORLD);
     const double start = MPI_Wtime();
-    const std::clock_t worked = std::clock();
+    const double worked = processorSeconds();
     auto result = work();
-    double processor = static_cast<double>(std::clock() - worked) / CLOCKS_PER_SEC;
+    double processor = processorSeconds() - worked;
     MPI_Allreduce(MPI_IN_PLACE, &processor, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
     const double seconds = MPI_Wtime() - start;
     const double own = peakMemory() - base_;

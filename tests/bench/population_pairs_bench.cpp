@@ -13,7 +13,6 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -21,6 +20,7 @@
 
 #include "particles/population/monte_carlo/shipped_types.hpp"
 #include "particles/population/sectional/sectional_options.hpp"
+#include "tests/bench/processor_time.hpp"
 #include "tests/every_module.hpp"
 
 namespace {
@@ -29,10 +29,6 @@ using namespace lampblack;
 using namespace lampblack::particles;
 
 constexpr double nanometre = 5.235987755982989e-28;  // m3, of a sphere of 1 nm
-
-double cpuSeconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 struct Case {
   std::string name;
@@ -105,10 +101,10 @@ void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsO
     options.sections = count;
     options.smallest = c.initial.number > 0 ? c.initial.volume : 0.1 * nanometre;
     options.largest = edges.back();
-    const double from = cpuSeconds();
+    const double from = bench::processorSeconds();
     auto solver = makeSectional(c.model, c.initial, options);
     solver->advance(c.end);
-    return std::pair{std::move(solver), cpuSeconds() - from};
+    return std::pair{std::move(solver), bench::processorSeconds() - from};
   };
   std::array<double, quantities> reference{};
   if (!c.hasAggregates) {
@@ -148,11 +144,11 @@ void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsO
         options.particles = n;
         options.repeat = repeat;
         options.expectedNumber = c.initial.number > 0 ? 0 : c.expectedNumber;
-        const double from = cpuSeconds();
+        const double from = bench::processorSeconds();
         const auto solver = c.hasAggregates ? makeMonteCarlo(SurfaceVolume(1800), c.model, c.initial, options)
                                             : makeMonteCarlo(Sphere(1800), c.model, c.initial, options);
         solver->advance(c.end);
-        seconds += cpuSeconds() - from;
+        seconds += bench::processorSeconds() - from;
         const auto result = outcome(*solver, edges, large);
         for (std::size_t q = 0; q < quantities; ++q) {
           sum[q] += result[q];

@@ -8,21 +8,17 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <ctime>
 #include <string>
 #include <vector>
 
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "tests/bench/processor_time.hpp"
 #include "tests/every_module.hpp"
 
 namespace {
 
 using namespace lampblack;
 using namespace lampblack::app;
-// CPU time, as in the tables of Wang (2025): a busy machine does not disturb it much.
-double cpuSeconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
 
 struct Case {
   std::string name;
@@ -87,9 +83,9 @@ void events(const std::string& name, const PopulationModel& model, const Initial
       };
       advanceTo(n, n / 20);
       const PopulationCounters start = counters;
-      const double from = cpuSeconds();
+      const double from = bench::processorSeconds();
       advanceTo(start.events() + std::min<std::uint64_t>(9 * n, least - done), n / 20);
-      time += cpuSeconds() - from;
+      time += bench::processorSeconds() - from;
       done += counters.events() - start.events();
       attempts += counters.events() + counters.fictitious - (start.events() + start.fictitious);
       merges += counters.merges - start.merges;
@@ -108,7 +104,7 @@ void run(const Case& c) {
   constexpr std::uint64_t repeats = 200;
   double m0 = 0;
   std::uint64_t count = 0, attempts = 0;
-  const double from = cpuSeconds();
+  const double from = bench::processorSeconds();
   for (std::uint64_t repeat = 0; repeat < repeats; ++repeat) {
     MonteCarloOptions options = c.options;
     options.repeat = repeat;
@@ -118,7 +114,7 @@ void run(const Case& c) {
     count += solver->counters().events();
     attempts += solver->counters().events() + solver->counters().fictitious;
   }
-  const double time = cpuSeconds() - from;
+  const double time = bench::processorSeconds() - from;
   fmt::print("  {:<34} {:>8.3f} s {:>10} events/repeat {:>8.1f} ns/event {:>6.2f} attempts/event  M0/N0 {:.5g}\n",
              c.name, time, count / repeats, 1e9 * time / static_cast<double>(count),
              static_cast<double>(attempts) / static_cast<double>(count), m0 / c.initial.number);

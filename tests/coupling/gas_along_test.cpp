@@ -9,6 +9,7 @@
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "coupling/split_gas.hpp"
 #include "tests/coupling/toy_particles.hpp"
 
 namespace lampblack::coupling {
@@ -48,18 +49,6 @@ std::vector<double> advanced(GasAlong& gas, double end) {
     t = stop;
   }
   return y;
-}
-
-SplitReactor::Gas couplingOf(GasAlong& gas) {
-  SplitReactor::Gas own;
-  own.system = &gas;
-  own.density = [&](double t, const double* y) { return gas.density(t, y); };
-  own.pressure = [&](double t, const double*) { return gas.pressure(t); };
-  own.timePerUnit = [](const double*) { return 1.0; };
-  own.kept = {SplitReactor::Gas::Kept::temperature};
-  own.nextStop = [&](double t) { return gas.nextRow(t); };
-  own.held = gas.held();
-  return own;
 }
 
 // Mass fraction that a mole fraction of acetylene in nitrogen is.
@@ -179,7 +168,7 @@ TEST(GasAlong, SplittingComesToTheWhole) {
       ParticlesAtRest atRest;
       ExchangeInGas exchange(mechanism(), {"C", "H"}, {acetylene()});
       GasAlong gas(mechanism(), history, {acetylene()}, predicted ? &exchange : &atRest);
-      SplitReactor::Gas own = couplingOf(gas);
+      SplitReactor::Gas own = splitGas(gas);
       if (predicted) own.expected = &exchange;
       SplitReactor::Options options;
       options.integrator = {1e-9, 1e-16, 0, 1000000};
@@ -210,7 +199,7 @@ TEST(GasAlong, WhatIsTakenOfHeldSpeciesCostsNoSteps) {
     ParticlesAtRest atRest;
     ExchangeInGas exchange(mechanism(), {"C", "H"}, {acetylene()});
     GasAlong gas(mechanism(), history, {}, predicted ? &exchange : &atRest);
-    SplitReactor::Gas own = couplingOf(gas);
+    SplitReactor::Gas own = splitGas(gas);
     if (predicted) own.expected = &exchange;
     SplitReactor split(mechanism(), own, particles, {});
     split.start(0, gas.initialState());
@@ -233,7 +222,7 @@ TEST(GasAlong, InertParticlesStayAsManyPerMassOfGas) {
   GasAlong gas(mechanism(), history, {}, &atRest);
   SplitReactor::Options options;
   options.integrator = {1e-10, 1e-16, 0, 1000000};
-  SplitReactor split(mechanism(), couplingOf(gas), particles, options);
+  SplitReactor split(mechanism(), splitGas(gas), particles, options);
   const std::vector<double> start = gas.initialState();
   const double first = gas.density(1e-3, start.data());
   split.start(1e-3, start);

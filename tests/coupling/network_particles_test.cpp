@@ -7,6 +7,7 @@
 
 #include "chemistry/reactor/reactor_network.hpp"
 #include "coupling/reactor_balance.hpp"
+#include "coupling/split_gas.hpp"
 #include "tests/coupling/populations_in_reactors.hpp"
 #include "tests/coupling/toy_particles.hpp"
 #include "tests/effort.hpp"
@@ -22,18 +23,6 @@ using test::integrated;
 using test::Toy;
 using test::ToyPhase;
 using test::ToySplit;
-using Kept = SplitReactor::Gas::Kept;
-
-SplitReactor::Gas gasOfNetwork(NetworkSystem& system, std::vector<Kept> kept) {
-  SplitReactor::Gas own;
-  own.system = &system;
-  own.density = [&system](double, const double* block) { return system.density(block); };
-  own.pressure = [&system](double, const double*) { return system.network().pressure; };
-  own.timePerUnit = [](const double*) { return 1.0; };
-  own.kept = std::move(kept);
-  return own;
-}
-
 // Two reactors, of which the second, hotter one gives half of what flows through it back to the first.
 ReactorNetwork recycle(const GasState& gas, std::optional<double> first, std::optional<double> second) {
   return {gas.pressure,
@@ -62,8 +51,7 @@ TEST(NetworkOfToys, IsOfSecondOrderWithARecycle) {
     options.integrator = {tolerance, 1e-6 * tolerance, 0, 1000000};
     options.fixedStep = true;
     options.largestStep = end / static_cast<double>(count);
-    SplitReactor march(ethylene(), gasOfNetwork(system, {Kept::enthalpy, Kept::enthalpy}),
-                       std::vector<SplitParticles*>{&first, &second}, options);
+    SplitReactor march(ethylene(), splitGas(system), std::vector<SplitParticles*>{&first, &second}, options);
     const auto unknowns = startUnknowns(ethylene(), network, start, system.numCarried());
     march.start(0, unknowns);
     march.advance(end);
@@ -129,8 +117,7 @@ class FlowingEnsembles : public ::testing::TestWithParam<EnsembleMethod> {
       split.integrator = {1e-8, 1e-14, 0, 1000000};
       split.fixedStep = true;
       split.largestStep = end / 20;
-      SplitReactor reactors(ethylene(), gasOfNetwork(system, std::vector<Kept>(count, Kept::temperature)), particles,
-                            split);
+      SplitReactor reactors(ethylene(), splitGas(system), particles, split);
       reactors.start(0, startUnknowns(ethylene(), network, {false, gas}, atRest.size()));
       reactors.advance(end);
       for (std::size_t r = 0; r < count; ++r) {

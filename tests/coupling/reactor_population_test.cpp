@@ -7,6 +7,7 @@
 #include "core/errors.hpp"
 #include "coupling/exchange_in_gas.hpp"
 #include "coupling/reactor_balance.hpp"
+#include "coupling/split_gas.hpp"
 #include "tests/coupling/populations_in_reactors.hpp"
 #include "tests/coupling/toy_particles.hpp"
 #include "tests/effort.hpp"
@@ -47,11 +48,7 @@ TEST(ReactorTrees, KeepsSiliconOxygenAndHydrogenToRoundOff) {
     ReactorTrees trees(mechanism, treeOptions(), GasViscosity::air, {});
     ParticlesAtRest atRest(1, trees.elements());
     ClosedReactor reactor(mechanism, gas, held, TemperatureProfile(1173), &atRest);
-    SplitReactor::Gas own;
-    own.system = &reactor;
-    own.density = [&](double, const double* y) { return reactor.density(y); };
-    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-    own.timePerUnit = [](const double*) { return 1.0; };
+    SplitReactor::Gas own = splitGas(reactor, held);
     own.kept = {SplitReactor::Gas::Kept::temperature};
     SplitReactor::Options options;
     options.integrator = {1e-6, 1e-14, 0, 1000000};
@@ -85,11 +82,7 @@ TEST(ReactorTrees, KeepTheEnergyOfGasAndSilica) {
   ReactorTrees trees(mechanism, treeOptions(), GasViscosity::air, {});
   ParticlesAtRest atRest(1, trees.elements());
   ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Pressure, std::nullopt, &atRest);
-  SplitReactor::Gas own;
-  own.system = &reactor;
-  own.density = [&](double, const double* y) { return reactor.density(y); };
-  own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-  own.timePerUnit = [](const double*) { return 1.0; };
+  SplitReactor::Gas own = splitGas(reactor, ReactorSystem::Held::Pressure);
   own.kept = {SplitReactor::Gas::Kept::enthalpy};
   SplitReactor::Options options;
   options.integrator = {1e-8, 1e-16, 0, 1000000};
@@ -134,11 +127,7 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
     ReactorTrees trees(mechanism, own, GasViscosity::air, {});
     ExchangeInGas inGas(mechanism, trees.elements(), trees.species());
     ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Pressure, TemperatureProfile(1173), &inGas);
-    SplitReactor::Gas split;
-    split.system = &reactor;
-    split.density = [&](double, const double* y) { return reactor.density(y); };
-    split.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-    split.timePerUnit = [](const double*) { return 1.0; };
+    SplitReactor::Gas split = splitGas(reactor, ReactorSystem::Held::Pressure);
     split.expected = &inGas;
     split.kept = {SplitReactor::Gas::Kept::temperature};
     SplitReactor::Options options;
@@ -248,12 +237,7 @@ class SootTreesInReactors : public testing::Test {
 
 TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
   ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Density, std::nullopt, &atRest);
-  SplitReactor::Gas own;
-  own.density = [&](double, const double* y) { return reactor.density(y); };
-  own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-  own.timePerUnit = [](const double*) { return 1.0; };
-  own.kept = {Kept::internalEnergy};
-  expectKept(reactor, own, reactor.initialState(), 1e-3);
+  expectKept(reactor, splitGas(reactor, ReactorSystem::Held::Density), reactor.initialState(), 1e-3);
   // Where necks may break, it is told how many did.
   const auto columns = trees.population().columns();
   const std::vector<double> concentrations(trees.species().size(), 1e-3);
@@ -272,11 +256,7 @@ TEST_F(SootTreesInReactors, ClosedOnesKeepElementsAndEnergy) {
 
 TEST_F(SootTreesInReactors, PlugFlowKeepsElementsAndEnergy) {
   PlugFlow flow(mechanism, gas, 3.0, 2e-2, std::nullopt, &atRest);
-  SplitReactor::Gas own;
-  own.density = [&](double, const double* y) { return flow.density(y); };
-  own.pressure = [&](double, const double*) { return gas.pressure; };
-  own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
-  expectKept(flow, own, flow.initialState(), 2e-2);
+  expectKept(flow, splitGas(flow, gas.pressure), flow.initialState(), 2e-2);
 }
 
 TEST_F(SootTreesInReactors, AStirredOneHoldsWhatFlowsIn) {
@@ -284,11 +264,7 @@ TEST_F(SootTreesInReactors, AStirredOneHoldsWhatFlowsIn) {
   const StirredReactor vessel{"r", 1e-4, {}, {}, 0, 0};
   const ReactorNetwork network{gas.pressure, {vessel}, {{0, 2e-2, gas.temperature, gas.Y}}, {}};
   NetworkSystem system(mechanism, network, &atRest);
-  SplitReactor::Gas own;
-  own.density = [&](double, const double* y) { return system.density(y); };
-  own.pressure = [&](double, const double*) { return gas.pressure; };
-  own.timePerUnit = [](const double*) { return 1.0; };
-  expectKept(system, own, startUnknowns(mechanism, network, {false, gas}, system.numCarried()), 3e-3);
+  expectKept(system, splitGas(system), startUnknowns(mechanism, network, {false, gas}, system.numCarried()), 3e-3);
 }
 
 // Particles to which nothing happens leave a stirred reactor with what flows out, and thin out with the gas of a duct.
@@ -300,11 +276,7 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   const double massFlow = 2e-2;
   const ReactorNetwork network{nitrogen.pressure, {vessel}, {{0, massFlow, nitrogen.temperature, nitrogen.Y}}, {}};
   NetworkSystem system(mechanism, network, &atRest);
-  SplitReactor::Gas own;
-  own.system = &system;
-  own.density = [&](double, const double* y) { return system.density(y); };
-  own.pressure = [&](double, const double*) { return nitrogen.pressure; };
-  own.timePerUnit = [](const double*) { return 1.0; };
+  SplitReactor::Gas own = splitGas(system);
   own.kept = {Kept::temperature};
   const auto start = startUnknowns(mechanism, network, {false, nitrogen}, system.numCarried());
   SplitReactor split(mechanism, own, inert, splitting());
@@ -316,9 +288,8 @@ TEST_F(SootTreesInReactors, ParticlesLeaveWithTheGas) {
   ReactorTrees carried(mechanism, sootOptions(false), GasViscosity::transport,
                        std::vector<TreeStart>{{{1e5, 1e4}, 1e16}});
   PlugFlow flow(mechanism, nitrogen, 3.0, 1.0, TemperatureProfile({0, 1}, {1000, 1600}), &atRest);
-  own.system = &flow;
-  own.density = [&](double, const double* y) { return flow.density(y); };
-  own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
+  own = splitGas(flow, nitrogen.pressure);
+  own.kept = {Kept::temperature};
   SplitReactor along(mechanism, own, carried, splitting());
   along.start(0, flow.initialState());
   along.advance(0.5);
@@ -343,11 +314,7 @@ TEST_F(SootTreesInReactors, ParticlesFlowFromReactorToReactor) {
       nitrogen.pressure, {vessel("a"), vessel("b")}, {{0, massFlow, 1000, nitrogen.Y}}, {{0, 1, massFlow}}};
   ParticlesAtRest both(2, first.elements());
   NetworkSystem system(mechanism, network, &both);
-  SplitReactor::Gas own;
-  own.system = &system;
-  own.density = [&](double, const double* y) { return system.density(y); };
-  own.pressure = [&](double, const double*) { return nitrogen.pressure; };
-  own.timePerUnit = [](const double*) { return 1.0; };
+  SplitReactor::Gas own = splitGas(system);
   own.kept = {Kept::temperature, Kept::temperature};
   SplitReactor::Options options2 = splitting();
   options2.fixedStep = true;

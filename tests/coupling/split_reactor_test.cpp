@@ -6,6 +6,7 @@
 #include "chemistry/reactor/plug_flow.hpp"
 #include "chemistry/reactor/reactor_network.hpp"
 #include "coupling/reactor_balance.hpp"
+#include "coupling/split_gas.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/coupling/populations_in_reactors.hpp"
@@ -110,14 +111,9 @@ class EveryCoupling : public SplitToy, public ::testing::WithParamInterface<bool
   ParticlesAtRest& phase() { return GetParam() ? static_cast<ParticlesAtRest&>(inGas) : atRest; }
   void couple(SplitReactor::Gas& own) { own.expected = GetParam() ? &inGas : nullptr; }
   // A closed reactor as the coupling sees it.
-  SplitReactor::Gas closedGas(ClosedReactor& reactor, Kept kept) {
-    SplitReactor::Gas own;
+  SplitReactor::Gas closedGas(ClosedReactor& reactor, Held held) {
+    SplitReactor::Gas own = splitGas(reactor, held);
     couple(own);
-    own.system = &reactor;
-    own.density = [&](double, const double* y) { return reactor.density(y); };
-    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-    own.timePerUnit = [](const double*) { return 1.0; };
-    own.kept = {kept};
     return own;
   }
   // The work that a closed reactor of constant pressure takes up to `end`, s.
@@ -126,7 +122,7 @@ class EveryCoupling : public SplitToy, public ::testing::WithParamInterface<bool
     SplitReactor::Options options;
     options.integrator = {1e-6, 1e-12, 0, 1000000};
     options.change = 0.03;
-    SplitReactor both(ethylene(), closedGas(reactor, Kept::enthalpy), particles, options);
+    SplitReactor both(ethylene(), closedGas(reactor, Held::Pressure), particles, options);
     both.start(0, reactor.initialState());
     both.advance(end);
     return both.work();
@@ -140,7 +136,7 @@ TEST_P(EveryCoupling, ClosedReactorsAreOfSecondOrder) {
     ToyPhase exact(toy);
     ClosedReactor whole(ethylene(), gas, held, std::nullopt, &exact);
     ClosedReactor reactor(ethylene(), gas, held, std::nullopt, &phase());
-    SplitReactor::Gas own = closedGas(reactor, held == Held::Pressure ? Kept::enthalpy : Kept::internalEnergy);
+    SplitReactor::Gas own = closedGas(reactor, held);
     expectSecondOrder(reactor, own, reactor.initialState(), 2e-4, reference(whole, whole.initialState(), 2e-4));
   }
 }
@@ -179,11 +175,8 @@ TEST_P(EveryCoupling, PlugFlowIsOfSecondOrder) {
   ToyPhase exact(toy);
   PlugFlow whole(ethylene(), gas, 3.0, 4e-3, std::nullopt, &exact);
   PlugFlow flow(ethylene(), gas, 3.0, 4e-3, std::nullopt, &phase());
-  SplitReactor::Gas own;
+  SplitReactor::Gas own = splitGas(flow, gas.pressure);
   couple(own);
-  own.density = [&](double, const double* y) { return flow.density(y); };
-  own.pressure = [&](double, const double*) { return gas.pressure; };
-  own.timePerUnit = [&](const double* y) { return 1 / flow.velocity(y); };
   expectSecondOrder(flow, own, flow.initialState(), 4e-3, reference(whole, whole.initialState(), 4e-3));
 }
 
@@ -194,11 +187,8 @@ TEST_P(EveryCoupling, AStirredReactorIsOfSecondOrder) {
   ToyPhase exact(toy);
   NetworkSystem whole(ethylene(), network, &exact);
   NetworkSystem system(ethylene(), network, &phase());
-  SplitReactor::Gas own;
+  SplitReactor::Gas own = splitGas(system);
   couple(own);
-  own.density = [&](double, const double* y) { return system.density(y); };
-  own.pressure = [&](double, const double*) { return gas.pressure; };
-  own.timePerUnit = [](const double*) { return 1.0; };
   const auto start = [&](const NetworkSystem& of) {
     return startUnknowns(ethylene(), network, {false, gas}, of.numCarried());
   };
@@ -248,11 +238,7 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
   for (std::size_t r = 0; r < repeats; ++r) {
     ParticlesAtRest atRest;
     ClosedReactor reactor(ethylene(), gas, Held::Pressure, std::nullopt, &atRest);
-    SplitReactor::Gas own;
-    own.system = &reactor;
-    own.density = [&](double, const double* at) { return reactor.density(at); };
-    own.pressure = [&](double, const double*) { return gas.pressure; };
-    own.timePerUnit = [](const double*) { return 1.0; };
+    const SplitReactor::Gas own = splitGas(reactor, Held::Pressure);
     EnsembleOptions stochastic;
     stochastic.method = GetParam();
     stochastic.particles = 300;

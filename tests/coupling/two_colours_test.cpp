@@ -8,6 +8,7 @@
 #include "core/state_backup.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "coupling/reactor_population.hpp"
+#include "coupling/split_gas.hpp"
 #include "tests/coupling/cell_vessel.hpp"
 
 namespace lampblack::test {
@@ -32,11 +33,7 @@ TEST(TwoColours, InAReactorTakeUpWhatTheirLawSays) {
   ReactorPopulation particles(std::make_unique<TwoColours>(mechanism, uptakeOfRed, someParticles()));
   ParticlesAtRest atRest(1, particles.elements());
   ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Density, TemperatureProfile(500.0), &atRest);
-  SplitReactor::Gas own;
-  own.system = &reactor;
-  own.density = [&](double, const double* y) { return reactor.density(y); };
-  own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-  own.timePerUnit = [](const double*) { return 1.0; };
+  SplitReactor::Gas own = splitGas(reactor, ReactorSystem::Held::Density);
   own.kept = {SplitReactor::Gas::Kept::temperature};
   SplitReactor::Options options;
   options.integrator = {1e-10, 1e-18, 0, 1000000};

@@ -7,7 +7,7 @@
 
 #include "chemistry/reactor/closed_reactor.hpp"
 #include "core/errors.hpp"
-#include "coupling/split_reactor.hpp"
+#include "coupling/split_gas.hpp"
 #include "tests/chemistry/measured.hpp"
 #include "tests/coupling/toy_particles.hpp"
 #include "tests/every_module.hpp"
@@ -35,11 +35,7 @@ class CoupledToy {
     ExchangeInGas inGas(ethylene(), SplitParticles::sootElements(), {toy_.acetylene});
     ClosedReactor reactor(ethylene(), gas_, ReactorSystem::Held::Pressure, std::nullopt,
                           predicted ? static_cast<CarriedPhase*>(&inGas) : &atRest);
-    SplitReactor::Gas own;
-    own.system = &reactor;
-    own.density = [&](double, const double* y) { return reactor.density(y); };
-    own.pressure = [&](double, const double* y) { return reactor.pressure(y); };
-    own.timePerUnit = [](const double*) { return 1.0; };
+    SplitReactor::Gas own = splitGas(reactor, ReactorSystem::Held::Pressure);
     own.expected = predicted ? &inGas : nullptr;
     SplitReactor::Options options;
     options.integrator = {couplingTolerance, 1e-6 * couplingTolerance, 0, 1000000};

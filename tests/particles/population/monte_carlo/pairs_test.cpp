@@ -5,7 +5,6 @@
 
 #include "../pairs_test_cases.hpp"
 #include "core/errors.hpp"
-#include "particles/population/gelation_error.hpp"
 #include "particles/population/monte_carlo/pair_solver.hpp"
 #include "same_law.hpp"
 
@@ -248,16 +247,5 @@ TEST(Pairs, SayWhatTheyCannotDo) {
 }
 
 // As of the other methods (weighted_errors_test.cpp).
-TEST(Pairs, ReportGelation) {
-  const auto solver = makeMonteCarlo(colliding(multiplicative, 1), startOf(Distribution::monodisperse), pairsOf(1000));
-  solver->advance(0.6);
-  try {
-    solver->advance(3);
-    FAIL() << "no gelation";
-  } catch (const GelationError& error) {
-    EXPECT_NEAR(error.time(), 1, 0.2);
-  }
-}
-
 }  // namespace
 }  // namespace lampblack::test

@@ -70,7 +70,8 @@ TEST(WeightedErrors, WeightsAndConstantsHaveARange) {
 // 4 N^(1/3), at 1 - tau = N^(-1/3) / 4: 0.025 for 1000 particles; noise of the largest particles, O(N^(-1/3)), in both
 // directions.
 TEST(WeightedErrors, GelationIsReportedWithItsTime) {
-  for (const auto method : {MonteCarloMethod::mmc, MonteCarloMethod::sammc, MonteCarloMethod::swa}) {
+  for (const auto method :
+       {MonteCarloMethod::mmc, MonteCarloMethod::sammc, MonteCarloMethod::swa, MonteCarloMethod::pairs}) {
     auto options = with(method);
     options.particles = 1000;
     const auto solver = makeMonteCarlo(coagulating(CollisionKernelType::multiplicative), monodisperse(), options);
