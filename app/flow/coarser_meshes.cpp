@@ -18,8 +18,7 @@ namespace {
 // The case of a deck that starts from what an earlier run left; nothing: from the deck's own start.
 FlowCase caseFrom(const Deck& deck, const std::filesystem::path& earlier) {
   FlowCase flowCase = readFlowCase(deck);
-  if (!earlier.empty())
-    flowCase.initialFields = flowcase::readEarlierFlow(earlier, {}, flowCase, flowcase::carriedNames(flowCase));
+  if (!earlier.empty()) flowCase.initialFields = flowcase::readEarlierFlow(earlier, {}, flowCase);
   return flowCase;
 }
 

@@ -62,8 +62,8 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
       throw deck.error(whole,
                        "it fills all of the mesh; expected 'layer: none' and nothing else that gives the start: no "
                        "formulas, no table, one of 'flame1d' and 'flow'");
-    fields = std::string_view(whole) == "initial.flow" ? readInitialFlow(deck, flowCase, carriedNames(flowCase))
-                                                       : readInitialFlame(deck, flowCase);
+    fields =
+        std::string_view(whole) == "initial.flow" ? readInitialFlow(deck, flowCase) : readInitialFlame(deck, flowCase);
   }
   flowCase.swirls = fields.swirl || std::ranges::any_of(flowCase.boundaries, [](const BoundaryCondition& boundary) {
                       return boundary.swirl != 0.0 || boundary.varies.swirl;

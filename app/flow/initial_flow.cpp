@@ -9,10 +9,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "app/flow/flow_case.hpp"
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
+#include "flow/models/carried_operator.hpp"
 #include "io/csv.hpp"
 #include "io/grid_table.hpp"
 #include "io/hdf5_reader.hpp"
@@ -22,6 +25,7 @@ namespace lampblack::app::flowcase {
 namespace {
 
 const std::string section = "initial.flow", swirl = "swirl_velocity";
+constexpr double mostWithoutPlace = 0.02;  // of the mass of a cell, in species that the mechanism lacks
 
 // The step that the deck asks for: the last, or that at the time next to `time`.
 std::string stepOf(const Hdf5Reader& results, std::optional<double> time) {
@@ -40,8 +44,7 @@ std::vector<double> component(const std::vector<double>& values, std::size_t com
   return of;
 }
 
-void requireSameGeometry(const Hdf5Reader& results, Geometry geometry) {
-  const Deck earlier = Deck::parse(results.textAttribute("/", "deck"), results.name(), {}, flowSchema());
+void requireSameGeometry(const Hdf5Reader& results, const Deck& earlier, Geometry geometry) {
   for (const char* key : {"mesh.file", "mesh.floor", "mesh.ceiling"})
     if (earlier.has(key))
       throw InputError(fmt::format("{} is of a mesh with '{}'; expected a plane box", results.name(), key));
@@ -68,22 +71,101 @@ void requireCover(const Hdf5Reader& results, const MeshSpec& mesh) {
   }
 }
 
-// The names of the fields that a start is made of, with those that have to be there.
-std::vector<std::string> fieldNames(const Hdf5Reader& results, const std::string& step, const Mechanism& mechanism,
-                                    const std::vector<std::string>& scalars) {
-  std::vector<std::string> names{"temperature"};
-  for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) names.push_back("X_" + mechanism.speciesName(k));
-  names.insert(names.end(), scalars.begin(), scalars.end());
-  for (const std::string& name : names)
-    if (!results.has(step + "/" + name))
-      throw InputError(fmt::format(
-          "{} has no '{}'; expected a run with the same mechanism and model of soot, and 'output: {{species: [all]}}'",
-          results.name(), name));
-  if (results.has(step + "/" + swirl)) names.push_back(swirl);
+bool hasAllSpecies(const Deck& earlier) {
+  return earlier.strings("output.species") == std::vector<std::string>{"all"};
+}
+
+// A field of one number a cell of one step, zero in all cells where the earlier mechanism lacks the species.
+std::vector<double> readMoleFraction(const Hdf5Reader& results, const Deck& earlier, const std::string& step,
+                                     const std::string& species, std::size_t cells) {
+  const std::string name = "X_" + species;
+  if (results.has(step + "/" + name)) return results.numbers(step + "/" + name);
+  if (!hasAllSpecies(earlier))
+    throw InputError(
+        fmt::format("{} has no '{}'; expected a run with 'output: {{species: [all]}}'", results.name(), name));
+  return std::vector<double>(cells, 0.0);
+}
+
+// Species of the earlier run that the mechanism has no place for, by their largest mole fractions.
+std::vector<std::pair<std::string, double>> speciesWithoutPlace(const Hdf5Reader& results, const std::string& step,
+                                                                const Mechanism& mechanism) {
+  std::vector<std::pair<std::string, double>> left;
   for (const std::string& name : results.names(step))
     if (name.starts_with("X_") && !mechanism.findSpecies(name.substr(2)))
-      throw InputError(fmt::format("the mechanism has no species '{}' of {}", name.substr(2), results.name()));
-  return names;
+      left.emplace_back(name.substr(2), std::ranges::max(results.numbers(step + "/" + name)));
+  std::ranges::sort(left, std::ranges::greater{}, &std::pair<std::string, double>::second);
+  return left;
+}
+
+// The largest mass fraction in a cell of all that has no place: what `moleFractions` of the mechanism's species leave
+// of the density.
+double largestMassWithoutPlace(const Hdf5Reader& results, const std::string& step, const Mechanism& mechanism,
+                               double pressure, const std::vector<std::vector<double>>& moleFractions) {
+  const std::vector<double> T = results.numbers(step + "/temperature"), density = results.numbers(step + "/density");
+  double largest = 0.0;
+  for (std::size_t c = 0; c < T.size(); ++c) {
+    double molarMass = 0.0;
+    for (std::size_t k = 0; k < moleFractions.size(); ++k)
+      molarMass += moleFractions[k][c] * mechanism.molecularWeights()[k];
+    largest = std::max(largest, 1.0 - pressure * molarMass / (constants::gasConstant * T[c] * density[c]));
+  }
+  return largest;
+}
+
+// Mole fractions of the mechanism's species in all cells; what has no place is left out and the rest scaled to one.
+// InputError where that is much; else the user is told.
+std::vector<std::vector<double>> readMoleFractions(const Hdf5Reader& results, const Deck& earlier,
+                                                   const std::string& step, double pressure, FlowCase& flowCase) {
+  const Mechanism& mechanism = *flowCase.mechanism;
+  const std::size_t cells = results.numbers(step + "/temperature").size();
+  std::vector<std::vector<double>> X;
+  for (std::size_t k = 0; k < mechanism.numSpecies(); ++k)
+    X.push_back(readMoleFraction(results, earlier, step, mechanism.speciesName(k), cells));
+  const auto left = speciesWithoutPlace(results, step, mechanism);
+  if (left.empty()) return X;
+  const double mass = largestMassWithoutPlace(results, step, mechanism, pressure, X);
+  constexpr std::size_t named = 3;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < std::min(named, left.size()); ++i)
+    names.push_back(fmt::format("{} (mole fraction up to {:.2g})", left[i].first, left[i].second));
+  if (left.size() > named) names.push_back(fmt::format("{} others", left.size() - named));
+  const std::string what =
+      fmt::format("{} has species that the mechanism lacks, up to {:.2g} of the mass of a cell: {}", results.name(),
+                  mass, fmt::join(names, ", "));
+  if (mass > mostWithoutPlace) throw InputError(fmt::format("{}; expected {:g} at most", what, mostWithoutPlace));
+  flowCase.notes.push_back(what + "; they are left out and the others scaled to sum one");
+  for (std::size_t c = 0; c < cells; ++c) {
+    double sum = 0.0;
+    for (const std::vector<double>& of : X) sum += of[c];
+    for (std::vector<double>& of : X) of[c] /= sum;
+  }
+  return X;
+}
+
+// Whether all scalars of this run's model stand in the earlier one's results with the same meaning, sections of the
+// same sizes among them: some of them alone are no particles. Else the user is told, as where this run has no model.
+bool hasScalars(const Hdf5Reader& results, const std::string& step, const std::vector<CarriedScalar>& scalars,
+                FlowCase& flowCase) {
+  const auto isMissing = [&](const CarriedScalar& scalar) {
+    const std::string field = step + "/" + scalar.name;
+    return !results.has(field) || results.textAttribute(field, "description") != scalar.description;
+  };
+  const auto missing = std::ranges::find_if(scalars, isMissing);
+  if (!scalars.empty() && missing == scalars.end()) return true;
+  const bool hadParticles = std::ranges::any_of(
+      results.names(step), [](const std::string& name) { return name.ends_with("_volume_fraction"); });
+  if (!scalars.empty())
+    flowCase.notes.push_back(fmt::format("{} has no '{}' ({}): its particles are left out of the start", results.name(),
+                                         missing->name, missing->description));
+  else if (hadParticles)
+    flowCase.notes.push_back(fmt::format("the particles of {} are left out of the start: {}", results.name(),
+                                         flowCase.ensembles ? "ensembles begin anew" : "this run has none"));
+  return false;
+}
+
+std::vector<CarriedScalar> carriedScalars(const FlowCase& flowCase) {
+  if (!flowCase.carried) return {};
+  return CarriedOperator::blockOf(*flowCase.carried, {}).scalars;
 }
 
 bool isClosed(const FlowCase& flowCase) {
@@ -158,46 +240,48 @@ void addInitialFlowKeys(DeckSchema& schema) {
   schema
       .section(section, Presence::optional,
                "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where "
-               "there is a "
-               "model of it; 'layer' is none. Linear between the earlier run's cells, beside solids as in the cell "
+               "its model "
+               "is the earlier run's; 'layer' is none. The mechanism and the model may be others: species go by name. "
+               "Linear between the earlier run's cells, beside solids as in the cell "
                "next to them. A closed vessel takes the earlier "
                "run's thermodynamic pressure in place of 'pressure'.",
                {{"initial.layer", {"none"}}})
       .add(stringKey(section + ".results",
                      "The earlier run's folder, or its results.h5, relative to the deck; of a run that was stopped the "
-                     "folder or results.h5.part. It holds all species of the "
+                     "folder or results.h5.part. It holds all species of its "
                      "mechanism ('output: {species: [all]}')."))
       .add(quantityKey(section + ".time", units::time,
                        "Time of the earlier run; the output next to it is taken. Absent: the last output.")
                .optional());
 }
 
-std::vector<std::string> carriedNames(const FlowCase& flowCase) {
-  std::vector<std::string> names;
-  if (flowCase.carried)
-    for (const CarriedScalar& scalar : CarriedOperator::blockOf(*flowCase.carried, {}).scalars)
-      names.push_back(scalar.name);
-  return names;
-}
-
-InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, const FlowCase& flowCase,
-                              const std::vector<std::string>& scalars) {
+InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase) {
   if (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2)
     throw InputError("an earlier run is laid over plane boxes only, without a floor or a ceiling of their own");
   const Hdf5Reader results(file);
-  requireSameGeometry(results, flowCase.mesh.geometry);
+  const Deck earlier = Deck::parse(results.textAttribute("/", "deck"), results.name(), {}, flowSchema());
+  requireSameGeometry(results, earlier, flowCase.mesh.geometry);
   requireCover(results, flowCase.mesh);
   const std::string step = stepOf(results, time);
+  InitialFields fields;
+  double pressure = earlier.quantity("pressure");
+  if (isClosed(flowCase)) fields.thermodynamicPressure = pressure = thermodynamicPressure(results, step);
   GridTable::Numbers numbers;
-  numbers.names = fieldNames(results, step, *flowCase.mechanism, scalars);
-  for (const std::string& name : numbers.names) numbers.columns.push_back(results.numbers(step + "/" + name));
+  numbers.columns = {results.numbers(step + "/temperature")};
+  for (std::vector<double>& of : readMoleFractions(results, earlier, step, pressure, flowCase))
+    numbers.columns.push_back(std::move(of));
+  std::vector<CarriedScalar> scalars = carriedScalars(flowCase);
+  if (!hasScalars(results, step, scalars, flowCase)) scalars.clear();
+  for (const CarriedScalar& scalar : scalars) numbers.columns.push_back(results.numbers(step + "/" + scalar.name));
+  const bool swirls = results.has(step + "/" + swirl);
+  if (swirls) numbers.columns.push_back(results.numbers(step + "/" + swirl));
   const std::vector<double> velocity = results.numbers(step + "/velocity");
   const std::vector<double> centres = results.numbers("/mesh/cellCentre");
   for (std::size_t axis = 0; axis < 2; ++axis) {
-    numbers.names.push_back("velocity");
     numbers.columns.push_back(component(velocity, 3, axis));
     numbers.places.push_back(component(centres, 3, axis));
   }
+  numbers.names.resize(numbers.columns.size());
   fillSolids(numbers);
   const auto table = std::make_shared<GridTable>(
       std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
@@ -205,20 +289,18 @@ InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<d
   const auto next = [&]() -> FieldFunction {
     return [table, at = column++](const Vector3& place, double) { return table->value(at, place); };
   };
-  InitialFields fields;
-  if (isClosed(flowCase)) fields.thermodynamicPressure = thermodynamicPressure(results, step);
   fields.gas.temperature = next();
   for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)
     // Advection leaves some slightly below zero.
     fields.gas.moleFractions.emplace_back(
         k, [value = next()](const Vector3& place, double t) { return std::max(value(place, t), 0.0); });
   for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());
-  if (std::ranges::find(numbers.names, swirl) != numbers.names.end()) fields.swirl = next();
+  if (swirls) fields.swirl = next();
   for (FieldFunction& velocityAlong : fields.velocity) velocityAlong = next();
   return fields;
 }
 
-InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const std::vector<std::string>& scalars) {
+InitialFields readInitialFlow(const Deck& deck, FlowCase& flowCase) {
   return deck.at(section + ".results", [&] {
     std::filesystem::path file = deck.resolvePath(deck.string(section + ".results"));
     if (std::filesystem::is_directory(file)) {
@@ -227,7 +309,7 @@ InitialFields readInitialFlow(const Deck& deck, const FlowCase& flowCase, const 
       file /= "results.h5";
       if (!std::filesystem::exists(file) && std::filesystem::exists(part)) file = part;
     }
-    return readEarlierFlow(file, deck.optionalQuantity(section + ".time"), flowCase, scalars);
+    return readEarlierFlow(file, deck.optionalQuantity(section + ".time"), flowCase);
   });
 }
 

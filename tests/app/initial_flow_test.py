@@ -76,8 +76,49 @@ MISFITS = [
     ("initial={low: fuel, high: oxidiser, position: 4 mm, width: 2 mm, flow: {results: ../earlier}}", "initial.layer"),
     ("initial={layer: none, formula: {temperature: 300}, flow: {results: ../earlier}}", "nothing else that gives the start"),
     ("initial={layer: none, flow: {results: ../short}}", "has no 'X_"),
-    ("initial={layer: none, flow: {results: ../sootless}}", "has no 'soot_"),
 ]
+
+
+def other_mechanism(program, deck, folder):
+    """Species go by name: those that this mechanism lacks are left out and told, the others scaled to sum one; those that the earlier
+    one lacks are zero. Where much would be left out the start is refused."""
+    start = ("initial={layer: none, flow: {results: ../doped}}", "soot.model=none", "boundaries.fuel.composition=C2H4: 1", "time.end=1 us")
+    out = folder / "other"
+    result = program("run", deck, "--out", out, *running.settings(*start, f"mechanism={running.SOURCE}/cases/mechanisms/methane_gri30_53.yaml"))
+    assert result.code == 0, result.err
+    benzene = 0.005 * 78.11
+    mass = f"up to {benzene / (benzene + 0.995 * 28.05):.2g} of the mass of a cell: A1 (mole fraction up to 0.005), "
+    assert mass in result.out and "the particles of" in result.out and "this run has none" in result.out, result.out
+    _, before = fields(folder / "doped", max)
+    _, after = fields(out, min)
+    kept = [name for name in before if name.startswith("X_") and name in after]
+    assert len(kept) > 20 and "X_A1" not in after and after["X_HCN"].max() == 0
+    known = sum(np.maximum(before[name], 0) for name in kept)
+    assert known.min() < 0.996
+    for name in kept:
+        assert np.abs(after[name] - np.maximum(before[name], 0) / known).max() < 1e-6, name
+    assert np.abs(sum(after[name] for name in after if name.startswith("X_")) - 1).max() < 1e-9
+    hydrogen = (*start[:2], f"mechanism={running.SOURCE}/cases/mechanisms/hydrogen_h2o2_10.yaml", "boundaries.fuel.composition=H2: 1")
+    result = program("run", deck, "--out", folder / "never", *running.settings(*hydrogen))
+    assert result.code == 2 and "up to 1 of the mass of a cell: C2H4" in result.err and "expected 0.02 at most" in result.err, result.err
+
+
+def other_particles(program, deck, folder):
+    """Particles are taken only where all that the model carries is there with the same meaning; else the gas alone, which is told."""
+    shutil.copytree(folder / "earlier", folder / "renamed")
+    with h5py.File(folder / "renamed/results.h5", "a") as file:
+        for step in file["steps"].values():
+            step["soot_hydrogen"].attrs["description"] = np.bytes_("hydrogen of something else")
+    for earlier, missing in (("sootless", "soot_number"), ("renamed", "soot_hydrogen")):
+        out = folder / f"from_{earlier}"
+        start = f"initial={{layer: none, flow: {{results: ../{earlier}}}}}"
+        result = program("run", deck, "--out", out, *running.settings(start, "time.end=1 us"))
+        assert result.code == 0 and f"has no '{missing}'" in result.out, (result.err, result.out)
+        _, before = fields(folder / earlier, max)
+        _, after = fields(out, min)
+        assert np.abs(after["temperature"] - before["temperature"]).max() < 1e-6
+        for name in ("soot_number", "soot_carbon", "soot_hydrogen"):
+            assert after[name].max() == 0, (earlier, name)
 
 
 def misfits(program, deck, folder):
@@ -164,12 +205,15 @@ def main(executable, *mpiexec):
         folder = pathlib.Path(name)
         deck = running.small_case(folder)
         for program, out, setting in ((two, "earlier", "boundaries.fuel.swirl_velocity=10 cm/s"), (one, "short", "output.species=[O2]"),
-                                      (one, "sootless", "soot.model=none")):
+                                      (one, "sootless", "soot.model=none"),
+                                      (one, "doped", 'boundaries.fuel.composition="C2H4: 0.995, A1: 0.005"')):
             result = program("run", deck, "--out", folder / out, *running.settings(setting))
             assert result.code == 0, result.err
         same_mesh(one, deck, folder)
         of_an_earlier_time(one, deck, folder)
         finer_mesh(two, deck, folder)
+        other_mechanism(one, deck, folder)
+        other_particles(two, deck, folder)
         misfits(one, deck, folder)
         closed_vessel(one, folder)
         around_a_solid(one, two, folder)
