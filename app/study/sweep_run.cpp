@@ -105,6 +105,25 @@ EarlierRun agreedEarlierRun(MPI_Comm comm, const Deck& deck, const std::filesyst
   return earlier;
 }
 
+bool isFlow(const Deck& deck) {
+  return deck.choice("problem") == "flow";
+}
+
+// InputError where the runs of a deck cannot start from each other.
+void requireChain(const Deck& deck, const SweepStudy& study) {
+  if (study.chain == 1) return;
+  const std::string name = deck.choice("problem");
+  if (isFlow(deck) && deck.strings("output.species") != std::vector<std::string>{"all"})
+    throw deck.error("output.species", fmt::format("runs that start from each other (chain: {}) need all species in "
+                                                   "their results; expected [all]",
+                                                   study.chain));
+  if (!isFlow(deck) && name != "flame1d")
+    throw InputError(
+        fmt::format("{}: only runs of problems flame1d and flow can start from each other (chain: {}); this one is of "
+                    "problem {}",
+                    deck.path().string(), study.chain, name));
+}
+
 // `before`: the run in front of this one in its chain, if it ended well.
 RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* before, const std::filesystem::path& folder,
                   bool force) {
@@ -113,9 +132,10 @@ RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* befor
   try {
     std::vector<std::string> overrides = run.overrides;
     Deck deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
-    if (before != nullptr && !deck.has("initial")) {
-      const auto results = std::filesystem::absolute(folder / before->name / "results.h5");
-      overrides.push_back("initial=" + jsonString(results.string()));
+    if (before != nullptr && (isFlow(deck) || !deck.has("initial"))) {
+      const std::string results = jsonString(std::filesystem::absolute(folder / before->name / "results.h5").string());
+      overrides.push_back(isFlow(deck) ? fmt::format("initial={{layer: none, flow: {{results: {}}}}}", results)
+                                       : "initial=" + results);
       deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
     }
     RunOptions options{folder / run.name, force, overrides};
@@ -203,13 +223,7 @@ void checkDecks(MPI_Comm comm, const SweepStudy& study) {
     const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), comm);
     for (const std::string& note : deck.notes())
       if (told.insert(note).second) printWarnings({note});
-    if (const std::string name = deck.choice("problem"); study.chain > 1 && name != "flame1d")
-      collectively(comm, [&] {
-        throw InputError(
-            fmt::format("{}: only runs of problem flame1d can start from each other (chain: {}); this one is "
-                        "of problem {}",
-                        run.deck.string(), study.chain, name));
-      });
+    collectively(comm, [&] { requireChain(deck, study); });
   }
   collectively(comm, [&] {
     int rank = 0;

@@ -189,12 +189,13 @@ DeckSchema studySchema() {
                       "another if this is not given, which suits problems that spread over ranks by themselves.")
                .optional()
                .atLeast(1))
-      .add(
-          integerKey("chain",
-                     "One-dimensional flames: so many runs follow each other on the same ranks, each starting from the "
-                     "flame before it (key initial); the first, and one after a failure, from its streams.")
-              .byDefault("1")
-              .atLeast(1))
+      .add(integerKey(
+               "chain",
+               "One-dimensional flames and flows: so many runs follow each other on the same ranks, each starting "
+               "from the end of the one before it (key initial, initial.flow); the first, and one after a failure, "
+               "from the deck's own start. Of steady states that follows a branch over a parameter.")
+               .byDefault("1")
+               .atLeast(1))
       .add(stringKey("collect.results",
                      "Which of a run's results (the object \"results\" of run.json, its parts joined by dots) become "
                      "columns of the study's table; all takes every one.")

@@ -25,7 +25,7 @@ struct SweepStudy {
   std::string name;
   std::vector<SweepRun> runs;
   std::optional<int> ranksPerRun;    // all, if not given
-  std::size_t chain = 1;             // so many runs after each other, each from the flame before
+  std::size_t chain = 1;             // so many runs after each other, each from the one before
   std::vector<std::string> results;  // keys of a run's results to collect; "all"
   std::vector<std::string> tables;   // CSV files of the runs to put below each other
   std::vector<std::string> columns;  // of those tables to show on the console, without their units; "all"

@@ -63,7 +63,7 @@ def run(deck, set=None, out=None, ranks=1, force=False):
 
 def sweep(deck, vary=None, set=None, out=None, ranks=1, chain=1, force=False, allow_failures=False):
     """Runs a study and opens it. `deck` is a study, or a deck of which `vary` has keys and their values ({"inlet.temperature":
-    ["300 K", "400 K"]}); all combinations are run, one-dimensional flames in chains of so many. With `allow_failures` runs may fail,
+    ["300 K", "400 K"]}); all combinations are run, one-dimensional flames and flows in chains of so many. With `allow_failures` runs may fail,
     as Study.failed says; otherwise that is the program's error."""
     out = pathlib.Path(out or pathlib.Path("results") / _name(deck))
     with tempfile.TemporaryDirectory() as folder:

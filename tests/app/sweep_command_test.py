@@ -11,6 +11,8 @@ import tempfile
 
 import running
 
+h5py = running.package("h5py")
+
 REACTOR = running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml"
 POPULATION = running.SOURCE / "cases/population_balance/chapter5_03_coagulation_exponential.yaml"
 STUDY = f"""study: delays
@@ -94,8 +96,7 @@ def check_unfinished(program: running.Program, folder: pathlib.Path) -> None:
     assert result.code == 0 and not is_kept, result.err
 
 
-def check_checkpoint(program: running.Program, folder: pathlib.Path) -> None:
-    """A flow that was stopped goes on from its checkpoint."""
+def flow_deck(folder: pathlib.Path) -> pathlib.Path:
     deck = folder / "deck.yaml"
     gas = 'temperature: 300 K, composition: "GAS: 1"'
     deck.write_text(f"""problem: flow
@@ -111,6 +112,36 @@ initial: {{layer: none, {gas}}}
 time: {{end: 0.2 ms, first_step: 50 us}}
 checkpoint: {{at_end: true}}
 """, encoding="utf-8")
+    return deck
+
+
+def check_chain(program: running.Program, folder: pathlib.Path) -> None:
+    """A flow of a chain starts from the end of the one before it; the first, and one after a failure, from its own start."""
+    text = f"study: chain\ndeck: {flow_deck(folder)}\nset: ['output.species=[all]']\nchain: 3\nvary: [{{key: boundaries.in.VALUES}}]\n"
+    hot, out = study(folder, text.replace("VALUES", "temperature, values: [600 K, 301 K, 302 K]")), folder / "chain"
+    result = program("sweep", hot, "--out", out)
+    assert result.code == 0, result.err
+    hottest = [[max(list(h5py.File(out / row["run"] / "results.h5")["steps"].values())[step]["temperature"][()]) for step in (0, -1)]
+               for row in rows(out / "study.csv")]
+    assert hottest[0][0] == 300 and hottest[0][1] > 310 and hottest[1][1] > 305, hottest
+    for before, after in zip(hottest, hottest[1:]):
+        assert abs(after[0] - before[1]) < 1e-9 * before[1], hottest
+
+    failing = study(folder, text.replace("VALUES", "composition, values: ['GAS: 1', 'NONE: 1', 'GAS: 2']"))
+    assert program("sweep", failing, "--out", folder / "broken").code == 2
+    starts = [json.loads((folder / "broken" / row["run"] / "run.json").read_text(encoding="utf-8"))["deck"]["initial"]
+              for row in rows(folder / "broken/study.csv") if row["status"] == "done"]
+    assert len(starts) == 2 and all("flow" not in start for start in starts), starts
+
+    result = program("sweep", study(folder, text.replace("=[all]", "=[]").replace("VALUES", "velocity, values: [1, 2]")), "--check")
+    assert result.code == 2 and "need all species" in result.err, result.err
+    result = program("sweep", study(folder, STUDY + "chain: 2\n"), "--check")
+    assert result.code == 2 and "only runs of problems flame1d and flow" in result.err, result.err
+
+
+def check_checkpoint(program: running.Program, folder: pathlib.Path) -> None:
+    """A flow that was stopped goes on from its checkpoint."""
+    deck = flow_deck(folder)
     text, out = study(folder, f"study: flows\ndeck: {deck}\n"), folder / "flows"
     assert program("sweep", text, "--out", out).code == 0
     run = out / rows(out / "study.csv")[0]["run"]
@@ -227,7 +258,8 @@ convergence:
 def main(executable: str, ranks: str, *mpiexec: str) -> None:
     program = running.Program(executable, list(mpiexec), int(ranks))
     alone = running.Program(executable, list(mpiexec), 1)
-    tasks = [(check_good, program), (check_unfinished, program), (check_checkpoint, program), (check_failures, program), (check_refused, program), (check_groups, program),
+    tasks = [(check_good, program), (check_unfinished, program), (check_chain, program), (check_checkpoint, program), (check_failures, program),
+             (check_refused, program), (check_groups, program),
              (check_population, program)]
     if program.ranks > 1:
         tasks.append((check_population, alone))
