@@ -12,7 +12,6 @@
 #include <utility>
 
 #include "app/flow/flow_case.hpp"
-#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "flow/models/carried_operator.hpp"
@@ -71,70 +70,70 @@ void requireCover(const Hdf5Reader& results, const MeshSpec& mesh) {
   }
 }
 
-bool hasAllSpecies(const Deck& earlier) {
-  return earlier.strings("output.species") == std::vector<std::string>{"all"};
-}
-
-// A field of one number a cell of one step, zero in all cells where the earlier mechanism lacks the species.
-std::vector<double> readMoleFraction(const Hdf5Reader& results, const Deck& earlier, const std::string& step,
-                                     const std::string& species, std::size_t cells) {
-  const std::string name = "X_" + species;
-  if (results.has(step + "/" + name)) return results.numbers(step + "/" + name);
-  if (!hasAllSpecies(earlier))
-    throw InputError(
-        fmt::format("{} has no '{}'; expected a run with 'output: {{species: [all]}}'", results.name(), name));
-  return std::vector<double>(cells, 0.0);
-}
-
-// Species of the earlier run that the mechanism has no place for, by their largest mole fractions.
-std::vector<std::pair<std::string, double>> speciesWithoutPlace(const Hdf5Reader& results, const std::string& step,
-                                                                const Mechanism& mechanism) {
-  std::vector<std::pair<std::string, double>> left;
-  for (const std::string& name : results.names(step))
-    if (name.starts_with("X_") && !mechanism.findSpecies(name.substr(2)))
-      left.emplace_back(name.substr(2), std::ranges::max(results.numbers(step + "/" + name)));
-  std::ranges::sort(left, std::ranges::greater{}, &std::pair<std::string, double>::second);
-  return left;
-}
-
-// The largest mass fraction in a cell of all that has no place: what `moleFractions` of the mechanism's species leave
-// of the density.
-double largestMassWithoutPlace(const Hdf5Reader& results, const std::string& step, const Mechanism& mechanism,
-                               double pressure, const std::vector<std::vector<double>>& moleFractions) {
-  const std::vector<double> T = results.numbers(step + "/temperature"), density = results.numbers(step + "/density");
-  double largest = 0.0;
-  for (std::size_t c = 0; c < T.size(); ++c) {
-    double molarMass = 0.0;
-    for (std::size_t k = 0; k < moleFractions.size(); ++k)
-      molarMass += moleFractions[k][c] * mechanism.molecularWeights()[k];
-    largest = std::max(largest, 1.0 - pressure * molarMass / (constants::gasConstant * T[c] * density[c]));
+// The columns of all species of the earlier mechanism, in its order.
+std::vector<std::vector<double>> earlierMoleFractions(const Hdf5Reader& results, const std::string& step,
+                                                      const std::vector<std::string>& species) {
+  std::vector<std::vector<double>> X;
+  for (const std::string& one : species) {
+    const std::string name = "X_" + one;
+    if (!results.has(step + "/" + name))
+      throw InputError(
+          fmt::format("{} has no '{}'; expected a run with 'output: {{species: [all]}}'", results.name(), name));
+    X.push_back(results.numbers(step + "/" + name));
   }
-  return largest;
+  return X;
+}
+
+// What the mechanism has no place for: its largest mass fraction in a cell, together and by species, the largest first.
+struct MassWithoutPlace {
+  double largest = 0.0;
+  std::vector<std::pair<std::string, double>> species;
+};
+
+MassWithoutPlace massWithoutPlace(const std::vector<std::string>& species, const std::vector<double>& molarMass,
+                                  const std::vector<std::vector<double>>& X, const Mechanism& mechanism) {
+  std::vector<double> all(X.front().size(), 0.0), without(all.size(), 0.0);  // kg/mol, of each cell
+  for (std::size_t k = 0; k < species.size(); ++k)
+    for (std::size_t c = 0; c < all.size(); ++c) all[c] += X[k][c] * molarMass[k];
+  MassWithoutPlace mass;
+  for (std::size_t k = 0; k < species.size(); ++k) {
+    if (mechanism.findSpecies(species[k])) continue;
+    double largest = 0.0;
+    for (std::size_t c = 0; c < all.size(); ++c) {
+      without[c] += X[k][c] * molarMass[k];
+      largest = std::max(largest, X[k][c] * molarMass[k] / all[c]);
+    }
+    mass.species.emplace_back(species[k], largest);
+  }
+  for (std::size_t c = 0; c < all.size(); ++c) mass.largest = std::max(mass.largest, without[c] / all[c]);
+  std::ranges::sort(mass.species, std::ranges::greater{}, &std::pair<std::string, double>::second);
+  return mass;
 }
 
 // Mole fractions of the mechanism's species in all cells; what has no place is left out and the rest scaled to one.
 // InputError where that is much; else the user is told.
-std::vector<std::vector<double>> readMoleFractions(const Hdf5Reader& results, const Deck& earlier,
-                                                   const std::string& step, double pressure, FlowCase& flowCase) {
+std::vector<std::vector<double>> readMoleFractions(const Hdf5Reader& results, const std::string& step,
+                                                   FlowCase& flowCase) {
   const Mechanism& mechanism = *flowCase.mechanism;
-  const std::size_t cells = results.numbers(step + "/temperature").size();
-  std::vector<std::vector<double>> X;
-  for (std::size_t k = 0; k < mechanism.numSpecies(); ++k)
-    X.push_back(readMoleFraction(results, earlier, step, mechanism.speciesName(k), cells));
-  const auto left = speciesWithoutPlace(results, step, mechanism);
-  if (left.empty()) return X;
-  const double mass = largestMassWithoutPlace(results, step, mechanism, pressure, X);
+  const std::vector<std::string> species = results.texts("/species/name");
+  std::vector<std::vector<double>> earlier = earlierMoleFractions(results, step, species);
+  const MassWithoutPlace mass = massWithoutPlace(species, results.numbers("/species/molar_mass"), earlier, mechanism);
+  std::vector<std::vector<double>> X(mechanism.numSpecies(), std::vector<double>(earlier.front().size(), 0.0));
+  for (std::size_t k = 0; k < species.size(); ++k)
+    if (const auto own = mechanism.findSpecies(species[k])) X[*own] = std::move(earlier[k]);
+  if (mass.species.empty()) return X;
   constexpr std::size_t named = 3;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(named, left.size()); ++i)
-    names.push_back(fmt::format("{} (mole fraction up to {:.2g})", left[i].first, left[i].second));
-  if (left.size() > named) names.push_back(fmt::format("{} others", left.size() - named));
+  for (std::size_t i = 0; i < std::min(named, mass.species.size()); ++i)
+    names.push_back(fmt::format("{} (up to {:.2g})", mass.species[i].first, mass.species[i].second));
+  if (mass.species.size() > named) names.push_back(fmt::format("{} others", mass.species.size() - named));
   const std::string what =
       fmt::format("{} has species that the mechanism lacks, up to {:.2g} of the mass of a cell: {}", results.name(),
-                  mass, fmt::join(names, ", "));
-  if (mass > mostWithoutPlace) throw InputError(fmt::format("{}; expected {:g} at most", what, mostWithoutPlace));
+                  mass.largest, fmt::join(names, ", "));
+  if (mass.largest > mostWithoutPlace)
+    throw InputError(fmt::format("{}; expected {:g} at most", what, mostWithoutPlace));
   flowCase.notes.push_back(what + "; they are left out and the others scaled to sum one");
-  for (std::size_t c = 0; c < cells; ++c) {
+  for (std::size_t c = 0; c < X.front().size(); ++c) {
     double sum = 0.0;
     for (const std::vector<double>& of : X) sum += of[c];
     for (std::vector<double>& of : X) of[c] /= sum;
@@ -264,12 +263,10 @@ InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<d
   requireCover(results, flowCase.mesh);
   const std::string step = stepOf(results, time);
   InitialFields fields;
-  double pressure = earlier.quantity("pressure");
-  if (isClosed(flowCase)) fields.thermodynamicPressure = pressure = thermodynamicPressure(results, step);
+  if (isClosed(flowCase)) fields.thermodynamicPressure = thermodynamicPressure(results, step);
   GridTable::Numbers numbers;
   numbers.columns = {results.numbers(step + "/temperature")};
-  for (std::vector<double>& of : readMoleFractions(results, earlier, step, pressure, flowCase))
-    numbers.columns.push_back(std::move(of));
+  for (std::vector<double>& of : readMoleFractions(results, step, flowCase)) numbers.columns.push_back(std::move(of));
   std::vector<CarriedScalar> scalars = carriedScalars(flowCase);
   if (!hasScalars(results, step, scalars, flowCase)) scalars.clear();
   for (const CarriedScalar& scalar : scalars) numbers.columns.push_back(results.numbers(step + "/" + scalar.name));
