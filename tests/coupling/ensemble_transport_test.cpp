@@ -289,7 +289,7 @@ TEST(EnsembleTransport, ScattersLessWithMoreParticles) {
 }
 
 // Second order: a hill carried once around, on twice as many cells.
-TEST(EnsembleTransport, ErrsFourTimesLessOnHalfTheCells) {
+TEST(EnsembleTransportLong, ErrsFourTimesLessOnHalfTheCells) {
   const auto error = [](int cells, int steps) {
     Moving m(cells, [](const Vector3& x) { return vortex(x); });
     const auto smooth = [](const Vector3& x) {
