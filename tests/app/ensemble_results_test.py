@@ -116,16 +116,20 @@ def check_restart(program, mpiexec, executable, folder, deck, whole):
     assert found["history/soot_averaged_blocks"][-1] == expected["history/soot_averaged_blocks"][-1]
     # Averages that are left out are gone; those that the run before did not have begin.
     without = [setting for setting in SETTINGS if "statistics" not in setting and "quantities" not in setting]
-    run(program, deck, *running.settings(*without), "--out", folder / "without", "--restart", checkpoint)
+    run(program, deck, *running.settings(*without, "time.end=66 us"), "--out", folder / "without", "--restart", checkpoint)
     assert not any(name.endswith("_mean") for name in datasets(folder / "without")), "averages that nobody asked for"
-    run(program, deck, *running.settings(*without, "checkpoint.at_end=true"), "--out", folder / "later")
-    run(program, deck, *options, *running.settings("time.end=140 us"), "--out", folder / "later", "--restart")
+    short = running.settings(*without, "checkpoint.at_end=true", "time.end=20 us", "output.interval=20 us")
+    run(program, deck, *short, "--out", folder / "later")
+    run(program, deck, *options, *running.settings("stochastic.statistics.start=10 us", "output.interval=20 us", "time.end=40 us"),
+        "--out", folder / "later", "--restart")
     found = datasets(folder / "later")
-    assert abs(found["history/soot_averages_since"][-1] - 120e-6) < 1e-9 and found["history/soot_averaged_blocks"][-1] == 1
+    assert abs(found["history/soot_averages_since"][-1] - 20e-6) < 1e-9 and found["history/soot_averaged_blocks"][-1] == 1
 
 
 def check_without_sizes(program, folder, deck):
-    settings = [s for s in SETTINGS if "quantities" not in s] + ["stochastic.size_distribution=false", "stochastic.shape=spheres"]
+    settings = [s for s in SETTINGS if "quantities" not in s] + [
+        "stochastic.size_distribution=false", "stochastic.shape=spheres", "stochastic.statistics.start=10 us",
+        "time.end=30 us", "output.interval=10 us"]
     run(program, deck, *running.settings(*settings), "--out", folder / "spheres")
     data = datasets(folder / "spheres")
     assert not any("size_distribution" in name for name in data if name.startswith("steps/"))
