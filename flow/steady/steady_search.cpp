@@ -22,8 +22,10 @@ constexpr double gain = 0.9;
 constexpr int mostFailures = 8;  // one behind the other
 // Of the residual that iterations begin with: with more they run away.
 constexpr double mostGrown = 1e4;
-// Of the heat that iterations begin with; with less the flame has gone out in a time that is none.
+// Of the heat that iterations begin with; with less, so many iterations in a row, the flame has gone out in a time that
+// is none. For a few iterations a flame that burns may release less, or take up heat.
 constexpr double leftOfHeat = 0.1;
+constexpr int darkIterations = 20;
 
 }  // namespace
 
@@ -57,7 +59,7 @@ void SteadySearch::addResidualOfStep(double residual) {
   if (!(first_ > 0.0)) first_ = least_ = residual;
   began_ = best_ = residual;
   heatAtBegin_ = heat_.back();
-  iterationsNow_ = bestAt_ = failures_ = 0;
+  iterationsNow_ = bestAt_ = failures_ = dark_ = 0;
 }
 
 void SteadySearch::addIteration(double residual, double heatRelease) {
@@ -65,9 +67,9 @@ void SteadySearch::addIteration(double residual, double heatRelease) {
   ++iterationsNow_;
   failures_ = 0;
   latest_ = residual;
-  if (heatRelease < leftOfHeat * heatAtBegin_) {
+  dark_ = heatRelease < leftOfHeat * heatAtBegin_ ? dark_ + 1 : 0;
+  if (dark_ >= darkIterations) {
     goBack(fmt::format("the flame has gone out: {:.3g} W of {:.3g} W were left", heatRelease, heatAtBegin_));
-    takesBack_ = true;
     return;
   }
   if (!(residual <= mostGrown * began_)) {
@@ -75,7 +77,7 @@ void SteadySearch::addIteration(double residual, double heatRelease) {
     return;
   }
   least_ = std::min(least_, residual);
-  isSteady_ = residual <= options_.residual;
+  isSteady_ = residual <= options_.residual && dark_ == 0;
   if (isSteady_) return;
   if (residual < gain * best_) {
     best_ = residual;
@@ -101,7 +103,7 @@ void SteadySearch::endIterations(const std::string& why) {
 
 void SteadySearch::goBack(const std::string& why) {
   whyNot_ = why;
-  takesBack_ = !(latest_ < began_);
+  takesBack_ = dark_ > 0 || !(latest_ < began_);
   phase_ = Phase::Steps;
   stepsNow_ = undisturbed_ = 0;
   if (returns_ == options_.returns || iterations_ >= options_.iterations)
@@ -119,7 +121,7 @@ double SteadySearch::progress() const {
 void SteadySearch::saveOrLoad(StateArchive& archive) {
   std::vector<double> numbers{first_, least_, latest_, began_, heatAtBegin_, best_};
   for (int* count :
-       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_})
+       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_, &dark_})
     numbers.push_back(*count);
   numbers.push_back(phase_ == Phase::Iterations ? 1.0 : 0.0);
   std::vector<double> heat(heat_.begin(), heat_.end());
@@ -129,11 +131,11 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   std::size_t next = 0;
   for (double* value : {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_}) *value = numbers.at(next++);
   for (int* count :
-       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_})
+       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_, &dark_})
     *count = static_cast<int>(numbers.at(next++));
   phase_ = numbers.at(next) != 0.0 ? Phase::Iterations : Phase::Steps;
   heat_.assign(heat.begin(), heat.end());
-  isSteady_ = latest_ > 0.0 && latest_ <= options_.residual;
+  isSteady_ = latest_ > 0.0 && latest_ <= options_.residual && dark_ == 0;
 }
 
 }  // namespace lampblack::flow

@@ -72,7 +72,8 @@ class SteadySearch {
   double first_ = 0.0, least_ = 0.0, latest_ = 0.0;  // residuals: of the first iterations' begin, since, the last
   // Of the present iterations: the residual and the heat that they began with, the least residual since, when it was.
   double began_ = 0.0, heatAtBegin_ = 0.0, best_ = 0.0;
-  int iterationsNow_ = 0, bestAt_ = 0, failures_ = 0;  // failures one behind the other
+  int iterationsNow_ = 0, bestAt_ = 0;
+  int failures_ = 0, dark_ = 0;  // in a row: failures, iterations with a small part of that heat
   std::string whyNot_;
 };
 

@@ -132,13 +132,25 @@ TEST(SteadySearch, IterationsThatRunAwayAreTakenBack) {
 TEST(SteadySearch, AFlameThatGoesOutIsNoSteadyState) {
   SteadySearch search({.residual = 1e-3});
   steps(search, 20.0);
-  search.addIteration(1e-2, 2.1);
+  for (int i = 0; i < 19; ++i) search.addIteration(1e-2, i < 9 ? 1.9 : -60.0);
+  search.addIteration(1e-2, 2.1);  // burns again
+  for (int i = 0; i < 19; ++i) search.addIteration(1e-4, 1.9);
+  EXPECT_FALSE(search.isSteady());
   EXPECT_EQ(search.phase(), Phase::Iterations);
   search.addIteration(1e-4, 1.9);
   EXPECT_FALSE(search.isSteady());
   EXPECT_EQ(search.phase(), Phase::Steps);
   EXPECT_TRUE(search.takesBack());
-  EXPECT_THAT(search.whyNot(), HasSubstr("gone out"));
+  EXPECT_THAT(search.whyNot(), HasSubstr("gone out: 1.9 W of 20 W"));
+
+  // What failures leave is not kept where it does not burn.
+  for (const double heat : {1.9, 2.1}) {
+    SteadySearch failing({});
+    steps(failing, 20.0);
+    failing.addIteration(0.5 * high, heat);
+    for (int i = 0; i < 8; ++i) failing.addFailure("too much");
+    EXPECT_EQ(failing.takesBack(), heat < 2.0);
+  }
 }
 
 TEST(SteadySearch, IsGivenUpAfterItsIterations) {
@@ -168,6 +180,14 @@ TEST(SteadySearch, WhatWasFoundIsFoundButForATighterLimit) {
   EXPECT_TRUE(again.isSteady());
   EXPECT_FALSE(tighter.isSteady());
   EXPECT_EQ(tighter.phase(), Phase::Iterations);
+
+  SteadySearch dark({.residual = 1e-6}), darkAgain({.residual = 1e-6});
+  steps(dark, 20.0);
+  for (int i = 0; i < 19; ++i) dark.addIteration(1e-7, 1.0);
+  pass(dark, darkAgain);
+  EXPECT_FALSE(darkAgain.isSteady());
+  darkAgain.addIteration(1e-7, 1.0);
+  EXPECT_THAT(darkAgain.whyNot(), HasSubstr("gone out"));
 }
 
 // At any point of the way.
