@@ -12,10 +12,10 @@ namespace lampblack::app {
 
 void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& particles) {
   schema.section("stochastic", Presence::optional, description)
-      .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa"},
+      .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa", "pairs"},
                      "Monte Carlo method. dsmc: particles of equal weight, doubled when few, reduced when many; sammc: "
                      "particles of different weight, the nearest neighbours in size are merged; swa: stochastic "
-                     "weighted algorithm, weights that conserve mass.")
+                     "weighted algorithm, weights that conserve mass; pairs: as sammc, with pairs drawn in time steps.")
                .byDefault("sammc"))
       .add(integerKey("stochastic.particles",
                       "Number of numerical particles of an ensemble: more have less noise and cost more.")
@@ -93,7 +93,8 @@ EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot) {
   const std::string method = deck.choice("stochastic.method");
   options.method = method == "dsmc"    ? EnsembleMethod::dsmc
                    : method == "sammc" ? EnsembleMethod::sammc
-                                       : EnsembleMethod::swa;
+                   : method == "swa"   ? EnsembleMethod::swa
+                                       : EnsembleMethod::pairs;
   options.particles = deck.integer<std::size_t>("stochastic.particles");
   requireMemory(deck, "stochastic.particles", fmt::format("a sample of {} particles", options.particles),
                 40 * static_cast<double>(options.particles));

@@ -3,6 +3,7 @@
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
+#include "particles/population/monte_carlo/pair_method.hpp"
 #include "particles/population/monte_carlo/sorted_store.hpp"
 #include "particles/population/monte_carlo/two_level_store.hpp"
 #include "particles/population/monte_carlo/weighted_method.hpp"
@@ -53,6 +54,9 @@ std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
     case EnsembleMethod::sammc:
       monteCarlo.method = MonteCarloMethod::sammc;
       break;
+    case EnsembleMethod::pairs:
+      monteCarlo.method = MonteCarloMethod::pairs;
+      return make<PairMethod<SootAggregate>>(std::move(options), model, monteCarlo);
     case EnsembleMethod::swa:
       monteCarlo.method = MonteCarloMethod::swa;
       break;

@@ -1,8 +1,9 @@
-// A stochastic soot population with all processes of soot, by any of three methods: equal weights with doubling and
-// contraction (dsmc), weighted particles whose neighbours are merged (sammc), or the stochastic weighted algorithm with
-// the transfer of weights that conserves mass (swa). Nuclei from dimers, coagulation in all regimes, condensation,
-// growth and oxidation; dilution by the divergence of the particles' velocity. The gas is given and is not changed, but
-// what is taken from it and given to it is reported: the same atoms that the soot gains, to round-off.
+// A stochastic soot population with all processes of soot, by any of four methods: equal weights with doubling and
+// contraction (dsmc), weighted particles whose neighbours are merged (sammc), the stochastic weighted algorithm with
+// the transfer of weights that conserves mass (swa), or weighted particles of which pairs are drawn in time steps
+// (pairs). Nuclei from dimers, coagulation in all regimes, condensation, growth and oxidation; dilution by the
+// divergence of the particles' velocity. The gas is given and is not changed, but what is taken from it and given to it
+// is reported: the same atoms that the soot gains, to round-off.
 //
 // The gas's dimers play the part of the transfer species of a decoupled solution (Kraft 2022): their number is
 // made to follow the gas's PAH at all times, and particles begin and grow by them.
@@ -27,7 +28,7 @@
 
 namespace lampblack::particles {
 
-enum class EnsembleMethod { dsmc, sammc, swa };
+enum class EnsembleMethod { dsmc, sammc, swa, pairs };
 
 struct EnsembleOptions {
   EnsembleMethod method = EnsembleMethod::dsmc;

@@ -23,7 +23,7 @@ namespace lampblack::particles {
 
 inline constexpr std::uint32_t ensembleStream = 0x53535354;  // stochastic soot
 
-// `Method` is an EqualWeightMethod or WeightedMethod of SootAggregate.
+// `Method` is an EqualWeightMethod, WeightedMethod or PairMethod of SootAggregate.
 template <class Method>
 class StochasticProcess final : public Ensemble {
  public:
@@ -73,6 +73,8 @@ class StochasticProcess final : public Ensemble {
   // Each takes the sums of the population as it is and leaves those of what it has become.
   void thin(double factor, Sums& now);
   void jump(const SootMedium& medium, double dt, double stepLength, Sums& now);
+  template <class Nucleate>
+  void jumpByEvents(double dt, double inception, const Nucleate& nucleate, bool& isChanged);
   void takeChanges(const SootMedium& medium, double before, Sums& now);
   void grow(const SootMedium& medium, double dt, Sums& now);
   [[nodiscard]] bool growsSome() const { return changesSome && options_.growthByEvents; }
@@ -82,6 +84,8 @@ class StochasticProcess final : public Ensemble {
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
+  // Whether a method collides its particles over a time, and not event by event.
+  static constexpr bool drawsPairs = requires(Method method, RandomStream& random) { method.coagulate(1.0, random); };
   // Whether a method can change some particles without looking at the others.
   static constexpr bool changesSome = requires(Method method, std::vector<std::uint32_t> which) {
     method.changeSome(which, [](Particle&, std::size_t) { return true; });
@@ -220,38 +224,28 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     method_.watch(&changes_);
   }
   double nucleatedCarbon = 0, nucleatedHydrogen = 0, nucleated = 0;
-  double time = 0;
-  double wait = kernel_ ? random_.exponential(1) : 0;  // of the integral of the rate of coagulation, to its next event
-  while (true) {
-    const double coagulation = kernel_ ? method_.coagulationRate() : 0;
-    const double next = coagulation > 0 ? time + wait / coagulation : std::numeric_limits<double>::infinity();
-    const double end = std::min(next, dt);
+  const auto nucleate = [&] {
+    const double weight = method_.nucleusWeight();
+    method_.nucleate(random_);
+    isChanged = true;
+    nucleated += weight;
+    nucleatedCarbon += weight * nucleusCarbon;
+    nucleatedHydrogen += weight * nucleusHydrogen;
+    // The next interval begins where this one, as long as what was put in, ends.
+    reached_ -= weight;
+    planNucleus(method_.nucleusWeight());
+  };
+  if constexpr (drawsPairs) {
+    // All that is born, between two halves of the collisions.
+    if (kernel_) method_.coagulate(0.5 * dt, random_);
     if (inception > 0) {
-      const double due = time + std::max(0.0, nucleusAfter_ - reached_) / inception;
-      if (due < end) {
-        reached_ = nucleusAfter_;
-        wait = std::max(0.0, wait - coagulation * (due - time));
-        time = due;
-        const double weight = method_.nucleusWeight();
-        method_.nucleate(random_);
-        isChanged = true;
-        nucleated += weight;
-        nucleatedCarbon += weight * nucleusCarbon;
-        nucleatedHydrogen += weight * nucleusHydrogen;
-        // The next interval begins where this one, as long as what was put in, ends.
-        reached_ -= weight;
-        planNucleus(method_.nucleusWeight());
-        continue;
-      }
-      reached_ += (end - time) * inception;
+      reached_ += inception * dt;
+      while (reached_ >= nucleusAfter_) nucleate();
     }
-    if (next >= dt) break;
-    time = next;
-    wait = random_.exponential(1);
-    if (method_.coagulate(random_))
-      isChanged = true;
-    else
-      ++method_.counters().fictitious;
+    if (kernel_) method_.coagulate(0.5 * dt, random_);
+    isChanged = isChanged || kernel_;
+  } else {
+    jumpByEvents(dt, inception, nucleate, isChanged);
   }
   if constexpr (!weighted) method_.watch(nullptr);
   if (isChanged) {
@@ -267,6 +261,37 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     recordUptakeOfDimers(medium, 2 * nucleated);
     exchange_.nucleatedNumber += nucleated;
     exchange_.nucleated += nucleatedCarbon + nucleatedHydrogen;
+  }
+}
+
+// Collisions over dt, and nuclei when they are due.
+template <class Method>
+template <class Nucleate>
+void StochasticProcess<Method>::jumpByEvents(double dt, double inception, const Nucleate& nucleate, bool& isChanged) {
+  double time = 0;
+  double wait = kernel_ ? random_.exponential(1) : 0;  // of the integral of the rate of coagulation, to its next event
+  while (true) {
+    const double coagulation = kernel_ ? method_.coagulationRate() : 0;
+    const double next = coagulation > 0 ? time + wait / coagulation : std::numeric_limits<double>::infinity();
+    const double end = std::min(next, dt);
+    if (inception > 0) {
+      const double due = time + std::max(0.0, nucleusAfter_ - reached_) / inception;
+      if (due < end) {
+        reached_ = nucleusAfter_;
+        wait = std::max(0.0, wait - coagulation * (due - time));
+        time = due;
+        nucleate();
+        continue;
+      }
+      reached_ += (end - time) * inception;
+    }
+    if (next >= dt) break;
+    time = next;
+    wait = random_.exponential(1);
+    if (method_.coagulate(random_))
+      isChanged = true;
+    else
+      ++method_.counters().fictitious;
   }
 }
 

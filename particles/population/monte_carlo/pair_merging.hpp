@@ -23,6 +23,13 @@ class PairMerging {
   // shares of their number. No pair that holds more than `most` (1/m3), unless there are too few others. Number and
   // every extensive quantity stay. Returns how many merged. O(N).
   std::size_t mergeDownTo(std::size_t count, double most, PairPopulation<Type>& population);
+  // Where there are more than `capacity`: down to mergedTo of it, none above `gathered` times their mean. Returns how
+  // many merged.
+  std::size_t makeRoom(std::size_t capacity, PairPopulation<Type>& population);
+  // Part of what there is room for that merging leaves: its cost is shared by as many particles as are new since.
+  static constexpr double mergedTo = 0.9375;
+  // Weight of a numerical particle over the mean, up to which particles are merged.
+  static constexpr double gathered = 3;
   // Halves the heaviest until there are `count`. Returns how many were made.
   std::size_t halveUpTo(std::size_t count, PairPopulation<Type>& population);
 
@@ -117,6 +124,14 @@ std::size_t PairMerging<Type>::mergeDownTo(std::size_t count, double most, PairP
     if (2 * (size - population.size()) < size - count) most *= 2;
   }
   return before - population.size();
+}
+
+template <ParticleType Type>
+std::size_t PairMerging<Type>::makeRoom(std::size_t capacity, PairPopulation<Type>& population) {
+  if (population.size() <= capacity) return 0;
+  const auto room = static_cast<double>(capacity);
+  const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(mergedTo * room));
+  return mergeDownTo(count, gathered * population.number() / room, population);
 }
 
 template <ParticleType Type>

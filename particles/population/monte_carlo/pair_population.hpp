@@ -49,6 +49,15 @@ class PairPopulation {
     return kernel.value(kernelProperties(kernel, type_, particles_[i]), kernelProperties(kernel, type_, particles_[j]));
   }
 
+  // Another kernel for the particles that there are.
+  void setKernel(const CollisionKernelOptions& kernel) {
+    kernel_.emplace(kernel);
+    for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k] = rowOf(particles_[k], rows_[k].weight);
+  }
+  void clear() {
+    rows_.clear();
+    particles_.clear();
+  }
   void reserve(std::size_t count) {
     rows_.reserve(count);
     particles_.reserve(count);

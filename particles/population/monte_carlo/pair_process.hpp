@@ -60,11 +60,11 @@ class PairProcess final : public PopulationSolver {
   }
 
  private:
-  // Part of what there is room for that merging leaves, and below which lost particles are made up for: the cost of
-  // either is shared by as many particles as lie between.
-  static constexpr double mergedTo = 0.9375, filledTo = 0.875;
-  // Weight of a numerical particle over the mean, up to which nuclei are gathered and particles merged.
-  static constexpr double gathered = 3;
+  static constexpr double mergedTo = PairMerging<Type>::mergedTo;
+  // Part of what there is room for below which lost particles are made up for.
+  static constexpr double filledTo = 0.875;
+  // Weight of a numerical particle over the mean, up to which nuclei are gathered.
+  static constexpr double gathered = PairMerging<Type>::gathered;
   // Part of the volume by which particles grow in a step, as in the other methods.
   static constexpr double growthPart = 0.05;
 

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,13 @@ class PairSampling {
   // By how much coagulation lowers the number, and raises the second moment by half, in 1/s relative to them: over the
   // last events, or by a draw of pairs where there were none.
   [[nodiscard]] double pace(const PairPopulation<Type>& population, RandomStream& random);
+  // What advance() goes on with: the pace of the fastest pair (1/s) and the highest weight (1/m3) at the last
+  // candidates; a pace of zero: not known.
+  [[nodiscard]] std::array<double, 2> memory() const { return {highest_, heaviest_}; }
+  void remember(const std::array<double, 2>& memory) {
+    highest_ = memory[0];
+    heaviest_ = highest_ > 0 ? memory[1] : std::numeric_limits<double>::max();
+  }
 
  private:
   template <class Rate>

@@ -253,8 +253,7 @@ template <ParticleType Type>
 void PairProcess<Type>::fit() {
   const std::size_t size = population_.size();
   if (size > options_.particles) {
-    const auto count = std::max<std::size_t>(1, static_cast<std::size_t>(mergedTo * capacity()));
-    counters_.merges += merging_.mergeDownTo(count, gathered * population_.number() / capacity(), population_);
+    counters_.merges += merging_.makeRoom(options_.particles, population_);
     filled_ = true;
   } else if (filled_ && static_cast<double>(size) < filledTo * capacity()) {
     counters_.copies += merging_.halveUpTo(static_cast<std::size_t>(mergedTo * capacity()), population_);

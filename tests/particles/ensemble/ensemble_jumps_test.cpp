@@ -39,7 +39,8 @@ std::unique_ptr<Ensemble> monodisperse(EnsembleMethod method, CollisionKernelOpt
 
 class StochasticJumps : public testing::TestWithParam<EnsembleMethod> {};
 INSTANTIATE_TEST_SUITE_P(Methods, StochasticJumps,
-                         testing::Values(EnsembleMethod::dsmc, EnsembleMethod::sammc, EnsembleMethod::swa));
+                         testing::Values(EnsembleMethod::dsmc, EnsembleMethod::sammc, EnsembleMethod::swa,
+                                         EnsembleMethod::pairs));
 
 // tau = K N0 t = 4: M0 = N0/3 and m2 = 1 + tau, past a doubling of equal weights. Merged neighbours lose a little of
 // the second moment, so that it is asked of dsmc and swa only.

@@ -35,11 +35,14 @@ class EnsembleMethods : public testing::TestWithParam<EnsembleMethod> {
 
 std::string nameOf(const testing::TestParamInfo<EnsembleMethod>& info) {
   if (info.param == EnsembleMethod::dsmc) return "dsmc";
+  if (info.param == EnsembleMethod::pairs) return "pairs";
   return info.param == EnsembleMethod::sammc ? "sammc" : "swa";
 }
 
 INSTANTIATE_TEST_SUITE_P(All, EnsembleMethods,
-                         testing::Values(EnsembleMethod::dsmc, EnsembleMethod::sammc, EnsembleMethod::swa), nameOf);
+                         testing::Values(EnsembleMethod::dsmc, EnsembleMethod::sammc, EnsembleMethod::swa,
+                                         EnsembleMethod::pairs),
+                         nameOf);
 
 // The gas as a population sees it, in kg of carbon: two atoms an event with C2H2 or O2, one with OH, two dimers a
 // nucleus.

@@ -53,6 +53,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, PackedSoot,
                                          Choice{EnsembleMethod::dsmc, SootShape::aggregates, true, true},
                                          Choice{EnsembleMethod::dsmc, SootShape::spheres, false, true},
                                          Choice{EnsembleMethod::sammc, SootShape::spheres, true, true},
+                                         Choice{EnsembleMethod::pairs, SootShape::spheres, true},
+                                         Choice{EnsembleMethod::pairs, SootShape::surfaceVolume, false, true},
                                          Choice{EnsembleMethod::dsmc, SootShape::surfaceVolume, true, true},
                                          Choice{EnsembleMethod::sammc, SootShape::surfaceVolume, true}));
 
