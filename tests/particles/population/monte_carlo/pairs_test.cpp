@@ -246,6 +246,5 @@ TEST(Pairs, SayWhatTheyCannotDo) {
   }
 }
 
-// As of the other methods (weighted_errors_test.cpp).
 }  // namespace
 }  // namespace lampblack::test
