@@ -206,6 +206,33 @@ TEST_P(EnsembleMethods, OxidationKeepsCompositionAndGivesBackAllOfWhatFallsBelow
   const EnsembleExchange x = population->takeExchange();
   EXPECT_NEAR(x.oxidisedNumber / 1e14, 1, 1e-12);
   EXPECT_NEAR(x.oxidisedOH / (1e14 * (massOf(3e-9) + massOf(20e-9) - massOf(16e-9))), 1, 1e-11);
+  if (GetParam() == EnsembleMethod::pairs) {
+    EXPECT_EQ(population->size(), 2U) << "the other one is halved";
+  }
+}
+
+TEST_P(EnsembleMethods, TakesInAShareOfAnotherPopulation) {
+  const std::vector<GivenParticle> there(20, {massOf(10e-9), 0, 1, 1e13});
+  std::vector<GivenParticle> coming;
+  for (int k = 0; k < 7; ++k) coming.push_back({massOf(5e-9 + 2e-9 * k), 0, 1, 1e13 * (1 + k)});
+  const double share = 0.3;
+  double number = 20e13, carbon = 20e13 * massOf(10e-9);
+  for (const GivenParticle& p : coming) {
+    number += share * p.number;
+    carbon += share * p.number * p.carbon;
+  }
+  std::vector<double> numbers, carbons;
+  for (std::uint64_t owner = 0; owner < 100; ++owner) {
+    EnsembleOptions o = options({});
+    o.owner = owner;
+    const auto population = makeEnsemble(o);
+    population->initialise(there);
+    population->join(coming, share);
+    numbers.push_back(population->totals().number);
+    carbons.push_back(population->totals().carbon);
+  }
+  EXPECT_LT(std::abs(test::summarise(numbers).z(number)), test::zLimit);
+  EXPECT_LT(std::abs(test::summarise(carbons).z(carbon)), test::zLimit);
 }
 
 TEST_P(EnsembleMethods, CoagulationOfAggregatesKeepsMassPrimariesAndSurface) {
