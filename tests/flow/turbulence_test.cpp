@@ -286,6 +286,7 @@ struct Probe {
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
     const double a = cell.values[0], b = cell.values[1];
     return {.eddyViscosity = cell.stretching,
+            .diffusivity = {cell.strain, cell.vorticity + b},
             .source = {cell.strain, cell.vorticity + 5.0 * b - 40.0 * a},
             .sink = {a * a, 0.0}};
   }
@@ -319,6 +320,17 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
     State::Balance rates = state.balance;
     turbulence.addRates(state, rates);
     turbulence.advance(state, 0.0, 0.0);
+    // From eddies that are not the state's own, with a halo of what is long past.
+    constexpr double past = 7.0;
+    State relaxed = state;
+    std::ranges::fill(relaxed.eddyViscosity, past);
+    State own = relaxed;
+    turbulence.advance(relaxed, 0.0, 1e6);
+    for (int c = box.mesh.owned; c < box.mesh.cells; ++c) {
+      own.velocity[at(2 * c)] = own.carried[at(2 * c)] = past;
+      own.velocity[at(2 * c + 1)] = own.carried[at(2 * c + 1)] = past;
+    }
+    turbulence.setDiffusivities(own);
     const double strain =
         std::sqrt(2.0 * (A * A + E * E + hoop * hoop) + (B + C) * (B + C) - 2.0 / 3.0 * dilatation * dilatation);
     int inside = 0;
@@ -333,6 +345,11 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
       expectShare(rates.carried[at(2 * c + 1)], density * (std::abs(B - C) + 5.0 * b - 40.0 * a), 1e-9);
       EXPECT_EQ(rates.carriedSink[at(2 * c + 1)], 0.0);
       EXPECT_NEAR(state.eddyViscosity[at(c)] / density, 0.25 * B * B * hoop, 1e-6);
+      EXPECT_NEAR(own.eddyViscosity[at(c)] / density, 0.25 * B * B * hoop, 1e-6);
+      EXPECT_NEAR(relaxed.eddyViscosity[at(c)], 0.8 * past + 0.2 * own.eddyViscosity[at(c)],
+                  1e-8 * B * B * (1.0 + hoop));
+      expectShare(own.carriedDiffusivity[at(2 * c)], strain, 1e-9);
+      expectShare(own.carriedDiffusivity[at(2 * c + 1)], std::abs(B - C) + b, 1e-9);
     }
     MPI_Allreduce(MPI_IN_PLACE, &inside, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     EXPECT_EQ(inside, 25);

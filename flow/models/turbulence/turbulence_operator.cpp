@@ -14,34 +14,6 @@ namespace {
 
 constexpr const char* owner = "turbulence";
 
-// Sinks become what a rate falls by as its own variable rises, where that is more; the rates stay what they are. The
-// wall function of SA goes with the sixth power of the variable: with a sink of that of the square alone long steps
-// swing.
-void linearise(const TurbulenceModel& model, std::size_t variables, std::span<const TurbulentCell> cells,
-               std::span<TurbulentRates> rates) {
-  constexpr double small = 1e-6;
-  std::vector<TurbulentCell> beside(cells.begin(), cells.end());
-  std::vector<TurbulentRates> ofBeside(rates.size());
-  const auto net = [](const TurbulentRates& of, const TurbulentCell& cell, std::size_t v) {
-    return of.source[v] - of.sink[v] * cell.values[v];
-  };
-  for (std::size_t v = 0; v < variables; ++v) {
-    for (std::size_t c = 0; c < cells.size(); ++c) beside[c].values[v] += small * std::abs(cells[c].values[v]);
-    model.evaluate(beside, ofBeside);
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-      const double rise = beside[c].values[v] - cells[c].values[v];
-      beside[c].values[v] = cells[c].values[v];
-      if (!(cells[c].values[v] > 0.0)) continue;
-      TurbulentCell moved = cells[c];
-      moved.values[v] += rise;
-      const double more = -(net(ofBeside[c], moved, v) - net(rates[c], cells[c], v)) / rise - rates[c].sink[v];
-      if (!(more > 0.0)) continue;
-      rates[c].sink[v] += more;
-      rates[c].source[v] += more * cells[c].values[v];
-    }
-  }
-}
-
 }  // namespace
 
 ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std::vector<BoundaryCondition>& conditions,
@@ -81,6 +53,8 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
     throw std::logic_error("a model of turbulence without the distances from walls");
   cells_.resize(owned);
   rates_.resize(owned);
+  beside_.resize(owned);
+  ratesBeside_.resize(owned);
   values_.resize(cells * count_);
   boundaryValues_.resize(faces * count_);
   valueGradient_.resize(cells * count_ * d);
@@ -88,6 +62,7 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   strain_.resize(cells);
   boundaryStrain_.resize(faces);
   strainGradient_.resize(cells * d);
+  strainSum_.resize(owned);
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const auto b = static_cast<std::size_t>(face - m.interiorFaces);
     const BoundaryKind kind = context.boundaryOf(face).kind;
@@ -179,15 +154,15 @@ void TurbulenceOperator::addStrainGradient(const State& state) {
     if (isSticky(face)) boundaryStrain_[face - m.interiorFaces] = strainAtWall(face, state);
   context_.halo.update(strain_, 1);
   gradient_.compute(strain_, boundaryStrain_, 1, strainGradient_, knownStrain_);
-  std::vector<double> sum(static_cast<std::size_t>(m.owned), 0.0);
+  std::ranges::fill(strainSum_, 0.0);
   for (int face = 0; face < m.faces; ++face) {
     const bool isInside = m.high[face] >= 0;
     if (!isInside && !isSticky(face)) continue;
     const double beyond = isInside ? strain_[m.high[face]] : boundaryStrain_[face - m.interiorFaces];
-    addFaceFlux(m, face, -m.area[face] / m.distance[face] * (beyond - strain_[m.low[face]]), 1.0, sum);
+    addFaceFlux(m, face, -m.area[face] / m.distance[face] * (beyond - strain_[m.low[face]]), 1.0, strainSum_);
   }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    cells_[c].strainLaplacian = sum[c] / m.volume[c];
+    cells_[c].strainLaplacian = strainSum_[c] / m.volume[c];
     std::copy_n(&strainGradient_[c * d], d, cells_[c].strainGradient.begin());
   }
 }
@@ -217,7 +192,33 @@ void TurbulenceOperator::evaluate(const State& state) {
   findShear();
   if (model_->needsStrainGradient()) addStrainGradient(state);
   model_->evaluate(cells_, rates_);
-  linearise(*model_, count_, cells_, rates_);
+  linearise();
+}
+
+// Sinks become what a rate falls by as its own variable rises, where that is more; the rates stay what they are. The
+// wall function of SA goes with the sixth power of the variable: with a sink of that of the square alone long steps
+// swing.
+void TurbulenceOperator::linearise() {
+  constexpr double small = 1e-6;
+  std::ranges::copy(cells_, beside_.begin());
+  const auto net = [](const TurbulentRates& of, const TurbulentCell& cell, std::size_t v) {
+    return of.source[v] - of.sink[v] * cell.values[v];
+  };
+  for (std::size_t v = 0; v < count_; ++v) {
+    for (std::size_t c = 0; c < cells_.size(); ++c) beside_[c].values[v] += small * std::abs(cells_[c].values[v]);
+    model_->evaluate(beside_, ratesBeside_);
+    for (std::size_t c = 0; c < cells_.size(); ++c) {
+      const double rise = beside_[c].values[v] - cells_[c].values[v];
+      beside_[c].values[v] = cells_[c].values[v];
+      if (!(cells_[c].values[v] > 0.0)) continue;
+      TurbulentCell moved = cells_[c];
+      moved.values[v] += rise;
+      const double more = -(net(ratesBeside_[c], moved, v) - net(rates_[c], cells_[c], v)) / rise - rates_[c].sink[v];
+      if (!(more > 0.0)) continue;
+      rates_[c].sink[v] += more;
+      rates_[c].source[v] += more * cells_[c].values[v];
+    }
+  }
 }
 
 void TurbulenceOperator::add(const State& state, State::Balance& rates) const {
@@ -234,13 +235,25 @@ void TurbulenceOperator::addRates(const State& state, State::Balance& rates) {
   add(state, rates);
 }
 
-void TurbulenceOperator::endSweep(State& state) {
-  evaluate(state);
-  add(state, state.balance);
+// Of the owned cells, as evaluated.
+void TurbulenceOperator::storeDiffusivities(State& state) const {
   const std::size_t n = state.scalars.size();
   for (std::size_t c = 0; c < rates_.size(); ++c)
     for (std::size_t v = 0; v < count_; ++v) state.carriedDiffusivity[c * n + first_ + v] = rates_[c].diffusivity[v];
-  context_.halo.update(state.carriedDiffusivity, static_cast<int>(n));
+}
+
+void TurbulenceOperator::endSweep(State& state) {
+  evaluate(state);
+  add(state, state.balance);
+  storeDiffusivities(state);
+  context_.halo.update(state.carriedDiffusivity, static_cast<int>(state.scalars.size()));
+}
+
+void TurbulenceOperator::setDiffusivities(State& state) {
+  state.updateHalo(context_.halo);
+  evaluate(state);
+  storeDiffusivities(state);
+  for (std::size_t c = 0; c < rates_.size(); ++c) state.eddyViscosity[c] = state.density[c] * rates_[c].eddyViscosity;
 }
 
 TurbulenceOperator::WallState TurbulenceOperator::atWall(int face, const State& state) const {

@@ -37,6 +37,10 @@ class TurbulenceOperator : public Operator {
   void advance(State& state, double time, double dt) override;
   void endSweep(State& state) override;
   void addRates(const State& state, State::Balance& rates) override;
+  [[nodiscard]] bool actsOnCarried() const override { return true; }
+  // Both of them functions of the state alone: the diffusivities of the variables, and the eddy viscosity, all of it.
+  // Fills the halo of the state first, which slopes need. Collective.
+  void setDiffusivities(State& state) override;
 
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
@@ -50,6 +54,8 @@ class TurbulenceOperator : public Operator {
 
  private:
   void evaluate(const State& state);
+  void linearise();
+  void storeDiffusivities(State& state) const;
   void findShear();
   void addStrainGradient(const State& state);
   [[nodiscard]] bool isSticky(int face) const;
@@ -63,11 +69,11 @@ class TurbulenceOperator : public Operator {
   VelocityGradient velocityGradient_;
   Gradient gradient_;
   std::vector<BoundaryData> known_, knownDensity_, knownStrain_;
-  std::vector<TurbulentCell> cells_;
-  std::vector<TurbulentRates> rates_;
+  std::vector<TurbulentCell> cells_, beside_;  // beside: one variable a little more
+  std::vector<TurbulentRates> rates_, ratesBeside_;
   // Of the local cells and boundary faces: the variables per mass; 1/s.
   std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_,
-      strainGradient_;
+      strainGradient_, strainSum_;
 };
 
 }  // namespace lampblack::flow
