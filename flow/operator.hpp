@@ -86,8 +86,9 @@ class Operator {
     std::span<double> carried;
   };
   virtual void addSlopes(const State&, const Slopes&) {}
-  // Sets what transport needs to know of the operator's scalars in a state (State::carriedDiffusivity); advance() does
-  // so by itself. The halo is filled by who calls.
+  // Sets what transport needs to know of the operator's scalars in a state, and what is a function of them
+  // (State::carriedDiffusivity, eddyViscosity), in the owned cells; advance() and endSweep() do so by themselves. The
+  // halo is filled by who calls. Collective.
   virtual void setDiffusivities(State&) {}
   // Saves or loads the data that the operator keeps between two steps, besides the state. With both, the next step is
   // the same to the last bit. Collective.
