@@ -69,6 +69,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   search.residual = deck.number("time.steady.residual");
   search.iterations = deck.integer<int>("time.steady.iterations");
   search.returns = deck.integer<int>("time.steady.returns");
+  search.steps = deck.optionalInteger<int>("time.steady.steps").value_or(0);
   search.coarserMeshes = deck.integer<int>("time.steady.coarser_meshes");
   if (search.coarserMeshes > 0 && (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2))
     throw deck.error("time.steady.coarser_meshes",
@@ -199,6 +200,14 @@ void addTimeKeys(DeckSchema& schema) {
                .byDefault(fmt::format("{}", search.returns))
                .atLeast(0)
                .atMost(20)
+               .onlyWith("time.mode", steady))
+      .add(integerKey("time.steady.steps",
+                      "Steps in time before the first iterations, in place of as many as the heat release takes to "
+                      "become quiet (50 to 300). With 20 most flames are found in a third to a tenth of the time; a "
+                      "flame that can stand in two ways may be found in the other.")
+               .optional()
+               .atLeast(1)
+               .atMost(1e5)
                .onlyWith("time.mode", steady))
       .add(integerKey("time.steady.coarser_meshes",
                       "Number of coarser meshes, each of half the cells of the next in every direction (of a plane "

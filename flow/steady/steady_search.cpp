@@ -34,8 +34,9 @@ bool SteadySearch::wantsResidual() const {
 }
 
 bool SteadySearch::isEstablished() const {
-  const int least = leastSteps << std::min(returns_, 10);
+  const int least = (options_.steps > 0 ? options_.steps : leastSteps) << std::min(returns_, 10);
   if (stepsNow_ < least) return false;
+  if (options_.steps > 0) return true;
   if (stepsNow_ >= mostSteps * least) return true;
   const auto [low, high] = std::ranges::minmax(heat_);
   return undisturbed_ >= quietSteps && high - low <= quietHeat * std::max(std::abs(low), std::abs(high));

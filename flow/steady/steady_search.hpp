@@ -18,6 +18,7 @@ class SteadySearch {
     double residual = 1e-7;  // of each equation, of its throughflow (ResidualNorm), below which the flow is steady
     int iterations = 1000;   // in all, before the search is given up
     int returns = 5;         // from iterations that fail to steps in time, before the search is given up
+    int steps = 0;           // before the first iterations, twice as many with each return; 0: until the heat is quiet
   };
   enum class Phase { Steps, Iterations };
 

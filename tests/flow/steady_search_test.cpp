@@ -39,6 +39,12 @@ TEST(SteadySearch, IteratesOnceTheHeatReleaseIsQuiet) {
   }
   EXPECT_EQ(count, 300);
 
+  // As many as were asked for, and twice as many with each return.
+  SteadySearch asked({.steps = 20});
+  EXPECT_EQ(steps(asked), 20);
+  asked.endIterations("");
+  EXPECT_EQ(steps(asked), 40);
+
   // What was more than 20 steps ago does not count.
   SteadySearch lit({});
   steps(lit, 10.0, 30);
