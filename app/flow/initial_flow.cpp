@@ -238,12 +238,10 @@ void fillSolids(GridTable::Numbers& numbers) {
 void addInitialFlowKeys(DeckSchema& schema) {
   schema
       .section(section, Presence::optional,
-               "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where "
-               "its model "
-               "is the earlier run's; 'layer' is none. The mechanism and the model may be others: species go by name. "
-               "Linear between the earlier run's cells, beside solids as in the cell "
-               "next to them. A closed vessel takes the earlier "
-               "run's thermodynamic pressure in place of 'pressure'.",
+               "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where its "
+               "model is the earlier run's; 'layer' is none. The mechanism and the model may be others: species go by "
+               "name. Linear between the earlier run's cells, beside solids as in the cell next to them. A closed "
+               "vessel takes the earlier run's thermodynamic pressure in place of 'pressure'.",
                {{"initial.layer", {"none"}}})
       .add(stringKey(section + ".results",
                      "The earlier run's folder, or its results.h5, relative to the deck; of a run that was stopped the "
