@@ -144,6 +144,11 @@ std::vector<double> FlowDomain::carriedThroughFaces(const CarriedModel& model, d
   return through;
 }
 
+void FlowDomain::adopt(const FlowCase& flowCase) {
+  flow.adopt(state);
+  if (deposition && carried) deposition->setRate(carriedThroughFaces(*flowCase.carried, 1.0));
+}
+
 void FlowDomain::beginBudget(const FlowCase& flowCase) {
   // Of all that is carried; what is not of particles has no mass of its own.
   const auto first = static_cast<std::size_t>(particleBlock(flowCase, state).first);

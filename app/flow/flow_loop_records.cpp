@@ -86,6 +86,7 @@ std::vector<Quantity> FlowLoop::columns() const {
 
 HistoryRow FlowLoop::observe() {
   const Timers::Scope scope(timers_, "monitoring");
+  if (iteration_) domain_->adopt(case_);
   HistoryRow row;
   row.step = steps_;
   row.time = time_;

@@ -124,6 +124,7 @@ void FlowLoop::goBack(Outputs& outputs) {
   if (search_->takesBack()) {
     restoreStepStart(time_, steps_);
   } else {
+    domain_->adopt(case_);
     resumeFromLoadedState();
     dt_ *= firstStepBack;
   }

@@ -176,13 +176,18 @@ void CarriedTransport::presentFlux(const State& state, const Gas& gas, std::span
   std::ranges::fill(flux, 0.0);
   diffusiveFlux(state, gas.faces, gas.properties, conductance, flux);
   for (std::size_t i = 0; i < flux.size(); ++i) flux[i] += flux_[i];
+  const auto boundary = static_cast<std::ptrdiff_t>(firstOfBoundary());
+  std::copy(flux.begin() + boundary, flux.end(), flux_.begin() + boundary);
+}
+
+std::size_t CarriedTransport::firstOfBoundary() const {
+  const Mesh& m = context_.mesh;
+  return flux_.size() / static_cast<std::size_t>(m.faces) * static_cast<std::size_t>(m.interiorFaces);
 }
 
 // Through the boundary, beside what is there already.
 void CarriedTransport::addCrossed(std::span<const double> flux) {
-  const std::size_t first = flux.size() / static_cast<std::size_t>(context_.mesh.faces) *
-                            static_cast<std::size_t>(context_.mesh.interiorFaces);
-  for (std::size_t i = first; i < flux.size(); ++i) flux_[i] += flux[i];
+  for (std::size_t i = firstOfBoundary(); i < flux.size(); ++i) flux_[i] += flux[i];
 }
 
 // From rates to changes. Each block by itself: how one is iterated does not depend on what is beside it.

@@ -50,8 +50,8 @@ class CarriedTransport {
   void diffusiveFlux(const State& state, const FaceState& faces, const GasProperties& properties,
                      std::span<double> conductance, std::span<double> flux) const;
 
-  // Flux of the last step, per s, scalars a face, positive from low to high or outwards: all that crosses the boundary,
-  // between cells the convective part.
+  // Flux of the last step, or of the last presentFlux(), per s, scalars a face, positive from low to high or outwards:
+  // all that crosses the boundary, between cells the convective part.
   [[nodiscard]] std::span<const double> flux() const { return flux_; }
   // kg/s, what thermophoresis moves of the gas's mass through each face in the last step for a coefficient of one:
   // particles drift as if so much gas flowed; of the boundary's faces to the walls that take particles or hold a scalar
@@ -67,6 +67,7 @@ class CarriedTransport {
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
   void addCrossed(std::span<const double> flux);
+  [[nodiscard]] std::size_t firstOfBoundary() const;  // in flux()
   [[nodiscard]] bool hasDriftToWall(const FaceState& faces, int face) const;
   void solveChanges(const State& state, std::span<const double> inertia, std::span<const double> conductance,
                     std::span<const double> sinks, std::span<double> change);

@@ -31,6 +31,12 @@ void DepositionOperator::record(double dt, std::span<const double> mass) {
   }
 }
 
+void DepositionOperator::setRate(std::span<const double> rate) {
+  const Mesh& m = context_.mesh;
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    rate_[face] = context_.takesParticles(face) ? rate[face - m.interiorFaces] : 0.0;
+}
+
 void DepositionOperator::saveOrLoad(StateArchive& archive) {
   archive.faces("deposition_rate", rate_, 1);
   archive.faces("deposited_mass", mass_, 1);

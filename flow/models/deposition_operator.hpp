@@ -23,6 +23,9 @@ class DepositionOperator : public Operator {
 
   // A step of `dt` (s) in which the boundary's faces took these masses, kg per metre depth or radian.
   void record(double dt, std::span<const double> mass);
+  // The boundary's faces take these rates (kg/s per metre depth or radian), of a state that no step has led to; nothing
+  // is added to what they have.
+  void setRate(std::span<const double> rate);
 
   [[nodiscard]] const char* name() const override { return "deposition"; }
   void advance(State&, double, double) override {}

@@ -39,12 +39,10 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
   row_.resize(n);
 }
 
-void TransportOperator::initialise(State& state, double dt) {
+// What diffusion takes through the faces: `content_` has what it brings to the cells.
+void TransportOperator::evaluateDiffusion(const State& state) {
   const Mesh& m = context_.mesh;
-  if (context_.varying) context_.varying->set(0.0, 0.0);
-  state.updateHalo(context_.halo);
   collectively(m.comm, [&] { properties_.update(context_, state); });
-  std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
   faces_.prepare(state, state.Y);
   speciesDiffusion_.prepare(state, properties_);
   std::ranges::fill(content_, 0.0);
@@ -52,9 +50,38 @@ void TransportOperator::initialise(State& state, double dt) {
     speciesDiffusion_.flux(face, state.Y, row_);
     heat_.enthalpy[face] = fluxes_.ofDiffusion(state, face, row_);
     addFaceFlux(m, face, row_, 1.0, content_);
+    keepBoundaryFlux(face, row_);
   }
   heatConduction_.prepare(state, properties_);
   heatConduction_.presentFlux(state, heat_.heat);
+}
+
+void TransportOperator::keepBoundaryFlux(int face, std::span<const double> row) {
+  const int b = face - context_.mesh.interiorFaces;
+  if (b >= 0) std::ranges::copy(row, boundaryFlux_.begin() + b * static_cast<std::ptrdiff_t>(row.size()));
+}
+
+void TransportOperator::adopt(const State& state) {
+  const Mesh& m = context_.mesh;
+  evaluateDiffusion(state);
+  for (int face = 0; face < m.faces; ++face) {
+    faces_.interpolate(state, face, state.massFlux[face], row_);
+    faceVelocity_[face] = m.area[face] > 0.0 ? state.massFlux[face] / (faces_.density[face] * m.area[face]) : 0.0;
+  }
+  if (!state.scalars.empty()) {
+    std::vector<double> flux(carried_.flux().size());
+    carried_.presentFlux(
+        state, {state, state, properties_.viscosity, faces_, faceVelocity_, {}, properties_, heat_.heat}, flux);
+  }
+  recordBoundary(state, 0.0);
+}
+
+void TransportOperator::initialise(State& state, double dt) {
+  const Mesh& m = context_.mesh;
+  if (context_.varying) context_.varying->set(0.0, 0.0);
+  state.updateHalo(context_.halo);
+  std::fill(state.massFlux.begin(), state.massFlux.end(), 0.0);
+  evaluateDiffusion(state);
   const auto divergence = expansion_.initial(state, properties_, content_, heat_);
   momentum_.balanceForces(state);
   const std::vector<double> weight = state.pressure;
@@ -176,9 +203,7 @@ void TransportOperator::advanceDiffusion(const State& mean, State& state, double
   if (corrected) gas = {state.Y, solution_, newMass_, content_, state.start.Y};
   diagnostics_.speciesIterations = speciesDiffusion_.advance(gas, dt, [&](int face, std::span<const double> row) {
     heat_.enthalpy[face] = fluxes_.ofDiffusion(mean, face, row);
-    if (face >= m.interiorFaces)
-      std::ranges::copy(row,
-                        boundaryFlux_.begin() + (face - m.interiorFaces) * static_cast<std::ptrdiff_t>(row.size()));
+    keepBoundaryFlux(face, row);
   });
   if (several)
     for (std::size_t i = 0; i < diffused_.size(); ++i) diffused_[i] = (content_[i] - diffused_[i]) / dt;

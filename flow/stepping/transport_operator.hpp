@@ -113,7 +113,13 @@ class TransportOperator : public Operator {
   // the gas by: a projection without advancing anything. Collective.
   void initialise(State& state, double dt);
 
+  // Collective. Properties, and what crosses the boundaries, become those of a state that no step has led to, such as
+  // one that iterations have found; nothing of it is booked.
+  void adopt(const State& state);
+
  private:
+  void evaluateDiffusion(const State& state);
+  void keepBoundaryFlux(int face, std::span<const double> row);
   void coupleReactions(const State& mean, State& state, double time, double dt);
   void markCoupled();
   [[nodiscard]] bool takesCoupled(int cell) const;
