@@ -19,10 +19,8 @@ struct MixingLayer {
   double position = 0.0;  // m, where the mixture is half and half
   double width = 1e-3;    // m, distance over which the mixture fraction changes by most (that of its tanh)
   Stream low, high;       // streams at the low and high end of the axis
-  // Burnt: fuel and oxygen that meet have burnt to CO2 and H2O (Burke and Schumann 1928; H2O is made first, then CO,
-  // then CO2 as far as oxygen reaches; 3 % of the H2O is H + OH), at the temperature their enthalpy gives but at most
-  // `temperature`. A mechanism without these species, for instance of hydrogen, burns to chemical equilibrium. Not
-  // burnt: mixed cold, then heated to at least `temperature` within a hot layer `hotWidth` around `hotPosition`.
+  // Burnt: fuel and oxygen that meet have burnt (BurntMixture), and are no hotter than `temperature`. Not burnt: mixed
+  // cold, then heated to at least `temperature` within a hot layer `hotWidth` around `hotPosition`.
   bool burnt = true;
   double temperature = 2200.0;               // K
   double hotPosition = 0.0, hotWidth = 0.0;  // m

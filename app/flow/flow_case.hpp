@@ -54,6 +54,7 @@ struct TimeControl {
   struct Search : SteadySearch::Options {
     std::optional<double> time = {};  // s, as SteadyControl::time
     int coarserMeshes = 0;            // on which the state is sought first
+    bool lights = true;               // what was lit by the start and does not burn once the steps in time are over
   };
   std::optional<Search> search;
 

@@ -76,6 +76,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
                      "coarser meshes are made of plane boxes only, without a floor or a ceiling of their own; leave "
                      "this out");
   search.time = deck.optionalQuantity("time.steady.time");
+  search.lights = deck.boolean("time.steady.light");
   return search;
 }
 
@@ -208,6 +209,13 @@ void addTimeKeys(DeckSchema& schema) {
                .optional()
                .atLeast(1)
                .atMost(1e5)
+               .onlyWith("time.mode", steady))
+      .add(booleanKey(
+               "time.steady.light",
+               "Whether a flame that the start has not lit (it has gas of more than 1000 K) and that does not burn "
+               "once the steps in time are over is lit by itself, at most twice: each cell whose mixture burns to "
+               "a gas at least 500 K hotter becomes that gas. The run says so.")
+               .byDefault("true")
                .onlyWith("time.mode", steady))
       .add(integerKey("time.steady.coarser_meshes",
                       "Number of coarser meshes, each of half the cells of the next in every direction (of a plane "

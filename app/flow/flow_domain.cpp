@@ -149,6 +149,12 @@ void FlowDomain::adopt(const FlowCase& flowCase) {
   if (deposition && carried) deposition->setRate(carriedThroughFaces(*flowCase.carried, 1.0));
 }
 
+void FlowDomain::beginAnew(const FlowCase& flowCase) {
+  chemistry.setRates(state, std::vector<double>(state.balance.reactions.size(), 0.0));
+  flow.initialise(state, flowCase.time.firstStep);
+  budget->begin(state);
+}
+
 void FlowDomain::beginBudget(const FlowCase& flowCase) {
   // Of all that is carried; what is not of particles has no mass of its own.
   const auto first = static_cast<std::size_t>(particleBlock(flowCase, state).first);

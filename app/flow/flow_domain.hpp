@@ -32,6 +32,8 @@ struct FlowDomain {
   void setStart(const FlowCase& flowCase);
   // Collective. Counts from the present state on.
   void beginBudget(const FlowCase& flowCase);
+  // After the gas has been replaced by another: face flows, rates and budgets as at a start.
+  void beginAnew(const FlowCase& flowCase);
   // Collective. What transport tells becomes that of the state, to which no step has led.
   void adopt(const FlowCase& flowCase);
   // kg per metre depth or radian that each boundary face lets out of what the case's model carries, in the last step.

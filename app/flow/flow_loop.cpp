@@ -31,6 +31,7 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       backup_(domain_->mesh.owned, domain_->mesh.faces),
       wallLimit_(case_.time.wallLimit) {
   domain_->setStart(case_);
+  startsHot_ = isHot();
   beginNextStep();
   steadiness_.begin(domain_->state, time_);
   domain_->beginBudget(case_);

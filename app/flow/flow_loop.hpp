@@ -118,6 +118,10 @@ class FlowLoop {
   void makeIteration();
   // From iterations that have ended in vain to steps in time.
   void goBack(Outputs& outputs);
+  // Lights the flow where steps in time have come to their end and nothing burns, though the start was hot.
+  void lightIfDark(Outputs& outputs);
+  // Collective. Whether there is gas as hot as a start has that is to light a flame.
+  [[nodiscard]] bool isHot() const;
   [[noreturn]] void giveUp(Outputs& outputs);
   // Collective. Of the state now; kept in norms_.
   void findNorms(const FlowResidual& residual);
@@ -211,7 +215,8 @@ class FlowLoop {
   std::optional<WholeCheckpoint> restart_;  // what the run goes on from
   std::vector<double> earlierRows_;         // of the history before that
   double time_ = 0.0;
-  double dt_ = 0.0;  // of the last step
+  double dt_ = 0.0;         // of the last step
+  bool startsHot_ = false;  // of a search: isHot() at its start
   double nextOutput_ = 0.0;
   std::int64_t steps_ = 0;
   std::int64_t written_ = -1;                           // the last step in the results

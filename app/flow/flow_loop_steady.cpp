@@ -79,6 +79,7 @@ void FlowLoop::searchOn(Outputs& outputs) {
       findNorms(*residual_);
       search_->addResidualOfStep(largestNorm());
     }
+    lightIfDark(outputs);
   }
   if (search_->isGivenUp()) giveUp(outputs);
 }
@@ -202,15 +203,17 @@ std::string FlowLoop::searchPlace() const {
 
 std::vector<std::string> FlowLoop::searchLines() const {
   const std::string back = search_->returns() > 0 ? fmt::format(", {} times back to steps", search_->returns()) : "";
+  const std::string lit = search_->lightings() > 0 ? fmt::format(", {} times lit", search_->lightings()) : "";
   const std::string first = search_->firstResidual() > 0.0
                                 ? fmt::format("{:.2e} before the first iteration, ", search_->firstResidual())
                                 : "";
-  return {fmt::format("{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s, and {} iterations{}; "
-                      "largest residual {}{:.2e} now",
-                      isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_,
-                      search_->iterations(), back, first, largestNorm()),
-          fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s",
-                      processorTime_[InTime], processorTime_[Iterating])};
+  return {
+      fmt::format("{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s, and {} iterations{}{}; "
+                  "largest residual {}{:.2e} now",
+                  isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_,
+                  search_->iterations(), back, lit, first, largestNorm()),
+      fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s", processorTime_[InTime],
+                  processorTime_[Iterating])};
 }
 
 void FlowLoop::tellSearch() {
@@ -225,6 +228,7 @@ void FlowLoop::addSearch(JsonWriter& json) const {
   json.field("steps_in_time", static_cast<std::int64_t>(search_->steps()));
   json.field("iterations", static_cast<std::int64_t>(search_->iterations()));
   json.field("returns_to_steps", static_cast<std::int64_t>(search_->returns()));
+  json.field("times_lit", static_cast<std::int64_t>(search_->lightings()));
   json.field("residual_before_iterations", search_->firstResidual()).field("last_residual", largestNorm());
   json.field("processor_time_of_steps_s", processorTime_[InTime]);
   json.field("processor_time_of_iterations_s", processorTime_[Iterating]);

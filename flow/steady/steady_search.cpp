@@ -63,6 +63,14 @@ void SteadySearch::addResidualOfStep(double residual) {
   iterationsNow_ = bestAt_ = failures_ = dark_ = 0;
 }
 
+void SteadySearch::addLighting() {
+  ++lightings_;
+  phase_ = Phase::Steps;
+  isSteady_ = takesBack_ = false;
+  stepsNow_ = undisturbed_ = 0;
+  heat_.clear();
+}
+
 void SteadySearch::addIteration(double residual, double heatRelease) {
   ++iterations_;
   ++iterationsNow_;
@@ -121,8 +129,8 @@ double SteadySearch::progress() const {
 
 void SteadySearch::saveOrLoad(StateArchive& archive) {
   std::vector<double> numbers{first_, least_, latest_, began_, heatAtBegin_, best_};
-  for (int* count :
-       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_, &dark_})
+  for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
+                     &dark_, &lightings_})
     numbers.push_back(*count);
   numbers.push_back(phase_ == Phase::Iterations ? 1.0 : 0.0);
   std::vector<double> heat(heat_.begin(), heat_.end());
@@ -131,8 +139,8 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   if (!archive.loading()) return;
   std::size_t next = 0;
   for (double* value : {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_}) *value = numbers.at(next++);
-  for (int* count :
-       {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_, &dark_})
+  for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
+                     &dark_, &lightings_})
     *count = static_cast<int>(numbers.at(next++));
   phase_ = numbers.at(next) != 0.0 ? Phase::Iterations : Phase::Steps;
   heat_.assign(heat.begin(), heat.end());

@@ -43,6 +43,8 @@ class SteadySearch {
   void addIteration(double residual, double heatRelease);
   // An iteration that was not taken, and why; the next may be, as it tries less.
   void addFailure(const std::string& why);
+  // The flow has been lit: the steps in time begin anew, as at the start of the search.
+  void addLighting();
   // The iterations cannot go on, and the state is not to be relied on.
   void endIterations(const std::string& why);
 
@@ -50,6 +52,7 @@ class SteadySearch {
   [[nodiscard]] int iterations() const { return iterations_; }
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] int returns() const { return returns_; }
+  [[nodiscard]] int lightings() const { return lightings_; }
   // With which the first iterations began; zero before.
   [[nodiscard]] double firstResidual() const { return first_; }
   // How far the residual has fallen since then, of what it has to fall on a logarithmic scale: 0 to 1.
@@ -66,7 +69,7 @@ class SteadySearch {
   Options options_;
   Phase phase_ = Phase::Steps;
   bool isSteady_ = false, isGivenUp_ = false, takesBack_ = false;
-  int steps_ = 0, iterations_ = 0, returns_ = 0;
+  int steps_ = 0, iterations_ = 0, returns_ = 0, lightings_ = 0;
   int stepsNow_ = 0;                                 // of the present phase
   std::deque<double> heat_;                          // W, of the last steps, the present at the back
   int undisturbed_ = 0;                              // steps since one that was tried again

@@ -155,6 +155,48 @@ TEST(SteadyMode, GoesOnFromACheckpointAsIfItHadNotStopped) {
   expectSameRun(scratch.path() / "iterations on", scratch.path() / "whole");
 }
 
+// A hot spot in nitrogen, far from where hydrogen and air come in and meet: it lights nothing.
+Deck hydrogenBesideAir(const std::vector<std::string>& overrides) {
+  return Deck::parse(
+      "problem: flow\n"
+      "mechanism: " +
+          test::sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml") + "\n" + R"deck(
+mesh: {geometry: planar, x: [{to: 8 mm, cells: 8}], y: [{to: 12 mm, cells: 8}]}
+boundaries:
+  fuel: {type: inlet, side: y-min, to: 4 mm, velocity: 30 cm/s, temperature: 298 K, composition: "H2: 0.3, N2: 0.7"}
+  air: {type: inlet, side: y-min, from: 4 mm, velocity: 30 cm/s, temperature: 298 K, composition: "O2: 0.21, N2: 0.79"}
+  out: {type: outlet, side: y-max, temperature: 298 K, composition: "N2: 1"}
+  axis: {type: symmetry, side: x-min}
+  shroud: {type: wall, side: x-max, slip: true}
+initial: {layer: none, composition: "N2: 1", temperature: 298 K, formula: {temperature: "298 + 900*exp(-((y-0.011)/0.001)^2)"}}
+time: {mode: steady, steady: {steps: 40, residual: 1e-4}}
+)deck",
+      "hydrogen.yaml", overrides, flowSchema());
+}
+
+RunRecord runHydrogen(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(hydrogenBesideAir(overrides)));
+  loop.run(RunFolder::prepare(path, false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
+  RunRecord record;
+  loop.report(1.0, record);
+  return record;
+}
+
+TEST(SteadyMode, LightsAFlameThatTheStartHasNotLit) {
+  const test::SharedScratchFolder scratch;
+  const auto hottest = [&](const char* run) {
+    return std::ranges::max(lastOf(Hdf5Reader(scratch.path() / run / "results.h5"), "temperature"));
+  };
+  EXPECT_THAT(runHydrogen(scratch.path() / "lit", {}).resultsJson, HasSubstr("\"times_lit\": 1"));
+  EXPECT_GT(hottest("lit"), 1200.0);
+  EXPECT_THAT(runHydrogen(scratch.path() / "dark", {"time.steady.light=false"}).resultsJson,
+              HasSubstr("\"times_lit\": 0"));
+  EXPECT_LT(hottest("dark"), 310.0);
+  // A start without anything hot asks for no flame.
+  EXPECT_THAT(runHydrogen(scratch.path() / "cold", {"initial.formula={temperature: '298'}"}).resultsJson,
+              HasSubstr("\"times_lit\": 0"));
+}
+
 struct Refused {
   const char* name;
   std::vector<std::string> settings;

@@ -57,6 +57,24 @@ TEST(SteadySearch, IteratesOnceTheHeatReleaseIsQuiet) {
   EXPECT_EQ(45 + 1 + steps(disturbed), 70);
 }
 
+TEST(SteadySearch, TakesAsManyStepsAnewOnceLit) {
+  SteadySearch search({});
+  steps(search, 10.0);
+  search.addLighting();
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_EQ(steps(search), 50) << "heat from before does not count";
+  EXPECT_EQ(search.lightings(), 1);
+  EXPECT_EQ(search.returns(), 0);
+
+  // What is steady and dark is not steady once lit.
+  SteadySearch dark({});
+  dark.addStep(0.0, false);
+  dark.addResidualOfStep(1e-9);
+  EXPECT_TRUE(dark.isSteady());
+  dark.addLighting();
+  EXPECT_FALSE(dark.isSteady());
+}
+
 TEST(SteadySearch, EndsWhereTheResidualIsLowEnough) {
   SteadySearch byIterations({.residual = 1e-6});
   steps(byIterations);

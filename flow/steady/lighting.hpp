@@ -1,0 +1,21 @@
+// Lights what is mixed and cold: what a spark everywhere would make of a flow whose flame was not lit, or has been
+// blown out.
+#pragma once
+
+#include <cstdint>
+
+#include "core/modules.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::flow {
+
+// K, by how much burning has to heat the mixture of a cell: less burns in no flame.
+constexpr double leastRiseOfLighting = 500.0;
+
+// Burns the mixture of each cell (BurntMixture, to 2200 K at most) that this heats by leastRiseOfLighting or more;
+// velocities and carried scalars stay. The halo is updated. Returned is the number of cells that were lit, of all
+// ranks. Collective.
+std::int64_t lightMixture(const FlowContext& context, State& state);
+
+}  // namespace lampblack::flow

@@ -1,0 +1,75 @@
+// What is mixed and cold is lit.
+#include "flow/steady/lighting.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "flow_fixture.hpp"
+
+namespace lampblack::test {
+namespace {
+
+// A row of five cells: hydrogen, as much as the oxygen of air burns, a twentieth of that, air, and burnt gas.
+class Lighting : public testing::Test {
+ protected:
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> stoichiometric = gas.massFractions("H2: 2, O2: 1, N2: 3.76");
+  const std::array<std::vector<double>, 5> mixtures{
+      gas.massFractions("H2: 1"), stoichiometric, gas.massFractions("H2: 0.1, O2: 1, N2: 3.76"),
+      gas.massFractions("O2: 1, N2: 3.76"), gas.massFractions("H2O: 2, N2: 3.76")};
+  Box box{Geometry::Planar,
+          {uniformAxis(1.0, 5), uniformAxis(1.0, 1)},
+          {side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true), side(BoundaryKind::Wall, 1, false),
+           side(BoundaryKind::Wall, 1, true)}};
+  State state = box.state([&](const auto& place) {
+    const auto i = static_cast<std::size_t>(place[0] / 0.2);
+    return Box::Local{{0.3, 0.0}, i == 4 ? 2300.0 : 300.0, mixtures.at(i)};
+  });
+};
+
+TEST_F(Lighting, BurnsWhatBurnsAndNothingElse) {
+  const State before = state;
+  EXPECT_EQ(lightMixture(box.context, state), 1);
+  const std::size_t n = stoichiometric.size(), water = gas.mechanism.speciesIndex("H2O");
+  for (std::int64_t natural = 0; natural < 5; ++natural) {
+    const int c = box.mesh.findOwned(natural);
+    if (c < 0) continue;
+    const std::span<const double> Y(&state.Y[at(c) * n], n), was(&before.Y[at(c) * n], n);
+    if (natural != 1) {
+      EXPECT_EQ(state.temperature[at(c)], before.temperature[at(c)]) << natural;
+      EXPECT_TRUE(std::ranges::equal(Y, was)) << natural;
+      continue;
+    }
+    EXPECT_DOUBLE_EQ(state.temperature[at(c)], 2200.0) << "the equilibrium is hotter";
+    EXPECT_GT(Y[water], 0.2);
+    EXPECT_NEAR(state.density[at(c)], gas.thermo.density(2200.0, state.thermodynamicPressure, Y), 1e-12);
+    EXPECT_NEAR(state.enthalpy[at(c)], gas.thermo.enthalpyMass(2200.0, Y), 1e-6);
+    for (std::size_t e = 0; e < gas.mechanism.numElements(); ++e) {
+      double atoms = 0.0;  // mol per kg, more than before
+      for (std::size_t k = 0; k < n; ++k)
+        atoms += gas.mechanism.atoms(k, e) * (Y[k] - was[k]) / gas.mechanism.molecularWeights()[k];
+      EXPECT_NEAR(atoms, 0.0, 1e-9) << gas.mechanism.elementName(e);
+    }
+  }
+  EXPECT_EQ(state.velocity, before.velocity);
+  EXPECT_EQ(lightMixture(box.context, state), 0) << "it burns already";
+}
+
+TEST_F(Lighting, KeepsTheEnthalpyBelowTheLimit) {
+  const std::vector<double> lean = gas.massFractions("H2: 1, O2: 1, N2: 3.76");
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    std::ranges::copy(lean, &state.Y[at(c) * lean.size()]);
+    state.Y[at(c) * lean.size() + gas.mechanism.speciesIndex("OH")] = -1e-8;  // what a step may leave
+    state.temperature[at(c)] = 300.0;
+    state.enthalpy[at(c)] = gas.thermo.enthalpyMass(300.0, lean);
+  }
+  EXPECT_EQ(lightMixture(box.context, state), 5);
+  for (int c = 0; c < box.mesh.cells; ++c) {  // beside other ranks, too
+    EXPECT_NEAR(state.temperature[at(c)], 1643.0, 60.0);
+    EXPECT_NEAR(state.enthalpy[at(c)], gas.thermo.enthalpyMass(300.0, lean), 1.0);
+  }
+}
+
+}  // namespace
+}  // namespace lampblack::test
