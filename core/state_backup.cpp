@@ -19,11 +19,11 @@ class StateBackup::Writer : public StateArchive {
     PackedRows& kept = next(name, Piece::Of::Rows, 0);
     for (std::size_t cell = 0; cell < kept_.cells_; ++cell) kept.add(values[cell]);
   }
-  void sums(const std::string& name, std::span<double> values) override { put(name, values); }
+  void sums(const std::string& name, std::span<double> values) override { put(name, values, Piece::Of::Sums); }
   void shared(const std::string& name, std::vector<double>& values) override { put(name, values); }
 
  private:
-  void put(const std::string& name, std::span<const double> values, Piece::Of of = Piece::Of::Rank, int width = 0) {
+  void put(const std::string& name, std::span<const double> values, Piece::Of of = Piece::Of::Shared, int width = 0) {
     next(name, of, width).values.assign(values.begin(), values.end());
   }
   // An empty piece.
@@ -87,6 +87,39 @@ void StateBackup::save(const Owners& owners) {
 void StateBackup::restore(const Owners& owners) {
   Reader reader(*this);
   owners(reader);
+}
+
+void StateBackup::saveOrLoad(StateArchive& archive, const std::string& prefix) {
+  for (std::size_t i = 0; i < count_; ++i) {
+    auto& [name, kept, of, width] = pieces_[i];
+    switch (of) {
+      case Piece::Of::Cells:
+        archive.cells(prefix + name, kept.values, width);
+        break;
+      case Piece::Of::Faces:
+        archive.faces(prefix + name, kept.values, width);
+        break;
+      case Piece::Of::Rows: {
+        std::vector<std::vector<double>> rows(cells_);
+        auto from = kept.values.begin();
+        for (std::size_t cell = 0; cell < cells_; ++cell) {
+          const auto to = from + kept.lengths[cell];
+          rows[cell].assign(from, to);
+          from = to;
+        }
+        archive.rows(prefix + name, rows);
+        kept.clear();
+        for (const std::vector<double>& row : rows) kept.add(row);
+        break;
+      }
+      case Piece::Of::Sums:
+        archive.sums(prefix + name, kept.values);
+        break;
+      case Piece::Of::Shared:
+        archive.shared(prefix + name, kept.values);
+        break;
+    }
+  }
 }
 
 void StateBackup::rearrange(int ownedCells, int faces, const Move& moveCells, const Move& moveFaces,

@@ -23,6 +23,10 @@ class StateBackup {
   // Writes the copy back. The owners have to name the same pieces in the same order (std::logic_error).
   void restore(const Owners& owners);
 
+  // Saves the copy into another archive, or fills it from there, names with the prefix. A copy of the same owners has
+  // to be there in both cases. Collective.
+  void saveOrLoad(StateArchive& archive, const std::string& prefix);
+
   // Of `width` values each for what this rank had: those of what it has now. Collective.
   using Move = std::function<std::vector<double>(const std::vector<double>& values, int width)>;
   // The same of a row of any length for each.
@@ -36,7 +40,7 @@ class StateBackup {
   struct Piece {
     std::string name;
     PackedRows kept;  // only values but of rows
-    enum class Of { Cells, Faces, Rows, Rank } of = Of::Rank;
+    enum class Of { Cells, Faces, Rows, Sums, Shared } of = Of::Shared;
     int width = 0;
   };
   class Writer;

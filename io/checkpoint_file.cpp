@@ -15,7 +15,7 @@
 namespace lampblack::io {
 namespace {
 
-constexpr std::int64_t formatVersion = 6;
+constexpr std::int64_t formatVersion = 7;
 constexpr const char* fileType = "lampblack checkpoint";
 
 std::filesystem::path unfinishedName(const std::filesystem::path& path) {

@@ -15,7 +15,7 @@
 namespace lampblack::numerics {
 namespace {
 
-double product(std::span<const double> a, std::span<const double> b) {
+double sumOfProducts(std::span<const double> a, std::span<const double> b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
@@ -29,9 +29,9 @@ void scale(std::span<double> v, double factor) {
 
 }  // namespace
 
-Arnoldi::Arnoldi(std::function<void(std::vector<double>&)> apply, std::vector<double> start)
-    : apply_(std::move(apply)) {
-  const double length = std::sqrt(product(start, start));
+Arnoldi::Arnoldi(std::function<void(std::vector<double>&)> apply, std::vector<double> start, Product product)
+    : apply_(std::move(apply)), product_(product ? std::move(product) : Product(sumOfProducts)) {
+  const double length = std::sqrt(product_(start, start));
   if (!(length > 0)) throw std::logic_error("Arnoldi: a start of length zero");
   scale(start, 1 / length);
   basis_.push_back(std::move(start));
@@ -41,15 +41,15 @@ bool Arnoldi::extend() {
   if (basis_.size() == dimension()) return false;
   std::vector<double> v = basis_.back();
   apply_(v);
-  const double before = std::sqrt(product(v, v));
+  const double before = std::sqrt(product_(v, v));
   std::vector<double> column(basis_.size() + 1, 0.0);
   for (int pass = 0; pass < 2; ++pass)
     for (std::size_t j = 0; j < basis_.size(); ++j) {
-      const double part = product(basis_[j], v);
+      const double part = product_(basis_[j], v);
       add(-part, basis_[j], v);
       column[j] += part;
     }
-  const double left = std::sqrt(product(v, v));
+  const double left = std::sqrt(product_(v, v));
   if (!std::isfinite(left)) throw NumericsError("the eigenvectors of a matrix are not finite");
   column.back() = left;
   columns_.push_back(std::move(column));

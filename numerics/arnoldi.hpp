@@ -19,8 +19,12 @@ struct RitzPair {
 
 class Arnoldi {
  public:
-  // `apply` overwrites a vector by its product with the matrix; `start` is not zero.
-  Arnoldi(std::function<void(std::vector<double>&)> apply, std::vector<double> start);
+  // Of two vectors, linear in both; the length of one is the root of that with itself, which may be zero for some that
+  // others bring with them: values of their vectors that have no part in it are right all the same.
+  using Product = std::function<double(std::span<const double>, std::span<const double>)>;
+  // `apply` overwrites a vector by its product with the matrix; `start` has a length above zero. `product`: by default
+  // the sum of the products of the values.
+  Arnoldi(std::function<void(std::vector<double>&)> apply, std::vector<double> start, Product product = {});
 
   // One more vector. False where the space is complete: the pairs are then exact.
   bool extend();
@@ -31,6 +35,7 @@ class Arnoldi {
 
  private:
   std::function<void(std::vector<double>&)> apply_;
+  Product product_;
   std::vector<std::vector<double>> basis_;
   std::vector<std::vector<double>> columns_;  // of the Hessenberg matrix, each with the entry below its diagonal
 };

@@ -36,6 +36,7 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, const RunFolder&
       flowCase = caseFrom(Deck::parse(deck.resolved(), deck.path(), {refinement, "output.species=[all]"}, flowSchema()),
                           earlier);
       flowCase.trajectories.reset();
+      flowCase.time.search->stability.reset();
       flowCase.output.tables = {};
     });
     const RunFolder own = RunFolder::prepare(folder.path() / fmt::format("coarser_{}", level), true, comm);

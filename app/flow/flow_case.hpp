@@ -22,6 +22,7 @@
 #include "flow/models/reaction_operator.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
 #include "flow/properties/transport_model.hpp"
+#include "flow/steady/leading_modes.hpp"
 #include "flow/steady/steadiness.hpp"
 #include "flow/steady/steady_search.hpp"
 #include "flow/stepping/transport_operator.hpp"
@@ -50,11 +51,17 @@ struct TimeControl {
   double temperatureChange = 500.0;  // K, of a cell in a step; more and the step fails
   double leastMassFraction = -1e-4;  // of a cell; below and the step fails
   std::optional<SteadyControl> steady;
+  // Whether the steady state that was found lasts.
+  struct Stability {
+    std::optional<double> time;  // s, of a march; nothing: what the flow gives
+    ModeOptions modes;
+  };
   // In place of a run until `end`, which is then infinite, the search for the steady state.
   struct Search : SteadySearch::Options {
     std::optional<double> time = {};  // s, as SteadyControl::time
     int coarserMeshes = 0;            // on which the state is sought first
     bool lights = true;               // what was lit by the start and does not burn once the steps in time are over
+    std::optional<Stability> stability = {};
   };
   std::optional<Search> search;
 

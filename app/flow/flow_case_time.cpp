@@ -15,6 +15,7 @@ namespace {
 
 constexpr const char* mode = "time.mode";
 constexpr const char* steadySection = "time.steady";
+constexpr const char* stabilitySection = "time.steady.stability";
 
 std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase) {
   if (!deck.has(steadySection)) return {};
@@ -27,6 +28,8 @@ std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCa
                        deck.quantity("time.steady.after"),
                        deck.choice("time.steady.norm") == "rms" ? Steadiness::Norm::Rms : Steadiness::Norm::Maximum};
 }
+
+constexpr int usualAttempts = 2;
 
 bool isSearched(const Deck& deck) {
   return deck.choice(mode) == "steady";
@@ -65,10 +68,12 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
                      "a steady state is sought with 'limited'; expected that, or 'time.mode: "
                      "transient' with two sweeps");
   TimeControl::Search search;
+  search.attempts = usualAttempts;
   if (!deck.has(steadySection)) return search;
   search.residual = deck.number("time.steady.residual");
   search.iterations = deck.integer<int>("time.steady.iterations");
   search.returns = deck.integer<int>("time.steady.returns");
+  search.attempts = deck.integer<int>("time.steady.attempts");
   search.steps = deck.optionalInteger<int>("time.steady.steps").value_or(0);
   search.coarserMeshes = deck.integer<int>("time.steady.coarser_meshes");
   if (search.coarserMeshes > 0 && (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2))
@@ -77,6 +82,10 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
                      "this out");
   search.time = deck.optionalQuantity("time.steady.time");
   search.lights = deck.boolean("time.steady.light");
+  if (deck.has(stabilitySection))
+    search.stability = {
+        deck.optionalQuantity("time.steady.stability.time"),
+        {deck.integer<int>("time.steady.stability.vectors"), deck.number("time.steady.stability.disturbance")}};
   return search;
 }
 
@@ -202,6 +211,15 @@ void addTimeKeys(DeckSchema& schema) {
                .atLeast(0)
                .atMost(20)
                .onlyWith("time.mode", steady))
+      .add(
+          integerKey("time.steady.attempts",
+                     "Attempts to find the state by iterations before the flow is established: after 20 steps in time, "
+                     "and each after twice as many. What burns and has no residual is taken; an attempt that fails is "
+                     "taken back, and the steps go on as without it.")
+              .byDefault(fmt::format("{}", usualAttempts))
+              .atLeast(0)
+              .atMost(5)
+              .onlyWith("time.mode", steady))
       .add(integerKey("time.steady.steps",
                       "Steps in time before the first iterations, in place of as many as the heat release takes to "
                       "become quiet (50 to 300). With 20 most flames are found in a third to a tenth of the time; a "
@@ -224,6 +242,29 @@ void addTimeKeys(DeckSchema& schema) {
                .byDefault("0")
                .atLeast(0)
                .atMost(5)
+               .onlyWith("time.mode", steady));
+  const ModeOptions modes;
+  schema
+      .section(stabilitySection, Presence::optional,
+               "Whether the steady state that was found lasts: growth rates and frequencies of its disturbances, which "
+               "take marches of the flow in time, in steps of two sweeps. Absent: not looked at.")
+      .add(quantityKey("time.steady.stability.time", units::time,
+                       "Time over which each disturbance is marched. Frequencies above one over twice that time are "
+                       "told as lower ones. Absent: a fortieth of the residence time.")
+               .optional()
+               .above(0)
+               .onlyWith("time.mode", steady))
+      .add(integerKey("time.steady.stability.vectors",
+                      "Disturbances that are marched at most; fewer where the one that leads is known before.")
+               .byDefault(fmt::format("{}", modes.vectors))
+               .atLeast(2)
+               .atMost(1000)
+               .onlyWith("time.mode", steady))
+      .add(numberKey("time.steady.stability.disturbance",
+                     "The largest change of any field in any cell that a disturbance has, of the field's range.")
+               .byDefault(fmt::format("{}", modes.disturbance))
+               .above(0)
+               .below(1)
                .onlyWith("time.mode", steady));
 }
 

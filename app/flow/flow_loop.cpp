@@ -133,6 +133,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     if (!problem.empty()) printWarnings({problem});
   }
   if (last_.step != steps_) observe();  // a restart at the very end
+  findStability();
   // What fails after the last step takes nothing from the flow: its results are closed first.
   std::exception_ptr failure;
   for (const auto& stage : closing_) {
@@ -146,6 +147,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   const Timers::Scope scope(timers_, "output");
   history.writeTo(results);
   tables_->writeTo(results);
+  writeStability(results);
   results.close();
   if (failure) std::rethrow_exception(failure);
 }

@@ -27,6 +27,7 @@
 #include "core/timers.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/peak.hpp"
+#include "flow/steady/leading_modes.hpp"
 #include "flow/steady/residual_norms.hpp"
 #include "flow/steady/steadiness.hpp"
 #include "flow/steady/steady_iteration.hpp"
@@ -117,11 +118,13 @@ class FlowLoop {
   void iterate(Outputs& outputs);
   void makeIteration();
   // From iterations that have ended in vain to steps in time.
-  void goBack(Outputs& outputs);
+  void goBack(Outputs& outputs, int attemptsBefore);
   // Lights the flow where steps in time have come to their end and nothing burns, though the start was hot.
   void lightIfDark(Outputs& outputs);
   // Collective. Whether there is gas as hot as a start has that is to light a flame.
   [[nodiscard]] bool isHot() const;
+  // Collective. Whether there is a flame in the state, or the mechanism has no reactions.
+  [[nodiscard]] bool burnsOrCannot() const;
   [[noreturn]] void giveUp(Outputs& outputs);
   // Collective. Of the state now; kept in norms_.
   void findNorms(const FlowResidual& residual);
@@ -130,6 +133,11 @@ class FlowLoop {
   [[nodiscard]] std::vector<double> heatRelease() const;
   [[nodiscard]] double totalHeatRelease() const;
   void saveOrLoadSearch(StateArchive& archive);
+  // Collective. Of the steady state that was found, where it is asked for.
+  void findStability();
+  [[nodiscard]] std::vector<std::string> stabilityLines() const;
+  void addStability(JsonWriter& json) const;
+  void writeStability(ResultsWriter& results) const;
   // Of the search: columns and values of the history, for the closing report.
   [[nodiscard]] std::vector<Quantity> searchColumns() const;
   [[nodiscard]] std::vector<double> searchValues() const;
@@ -203,6 +211,11 @@ class FlowLoop {
   MeshQuality quality_;
   Steadiness steadiness_;
   std::optional<SteadySearch> search_;
+  struct Stability {
+    LeadingModes modes;
+    double time = 0.0, step = 0.0;  // s, of a march and of its steps
+  };
+  std::optional<Stability> stability_;
   std::unique_ptr<FlowResidual> residual_;      // of the states that steps lead to; made where it is asked for
   std::unique_ptr<SteadyIteration> iteration_;  // while the search iterates
   std::vector<ResidualNorm> norms_;             // of the last state that was evaluated

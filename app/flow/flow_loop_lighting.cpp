@@ -5,7 +5,6 @@
 
 #include "app/flow/flow_loop.hpp"
 #include "app/run/warnings.hpp"
-#include "flow/steady/flame_steepness.hpp"
 #include "flow/steady/lighting.hpp"
 
 namespace lampblack::app {
@@ -24,8 +23,8 @@ bool FlowLoop::isHot() const {
 
 void FlowLoop::lightIfDark(Outputs& outputs) {
   const bool goesOn = search_->phase() == SteadySearch::Phase::Steps && !search_->isSteady();
-  if (goesOn || !startsHot_ || !case_.time.search->lights || search_->lightings() == mostLightings) return;
-  if (case_.mechanism->numReactions() == 0 || flow::flameSteepness(domain_->context, domain_->state)) return;
+  if (goesOn || search_->isAttempt() || !startsHot_ || !case_.time.search->lights || search_->lightings() == mostLightings) return;
+  if (burnsOrCannot()) return;
   const std::int64_t cells = flow::lightMixture(domain_->context, domain_->state);
   if (cells == 0) return;
   domain_->beginAnew(case_);

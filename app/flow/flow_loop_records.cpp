@@ -140,7 +140,12 @@ std::string FlowLoop::status(const HistoryRow& row) const {
 
 std::vector<std::string> FlowLoop::steadyLines() const {
   if (holder() != nullptr) return {};
-  if (search_) return searchLines();
+  if (search_) {
+    std::vector<std::string> lines = searchLines();
+    const std::vector<std::string> more = stabilityLines();
+    lines.insert(lines.end(), more.begin(), more.end());
+    return lines;
+  }
   std::vector<std::string> lines = steadiness_.lines();
   if (case_.time.steady)
     lines.push_back(fmt::format("{} (time.steady.tolerance {:.2g}, {} norm)",
@@ -181,6 +186,7 @@ std::string FlowLoop::steadyJson(const std::vector<ResidualNorm>& residual) cons
   for (const ResidualNorm& norm : residual) json.field(norm.equation.c_str(), norm.value);
   json.endObject();
   if (search_) addSearch(json);
+  addStability(json);
   json.endObject();
   return json.text();
 }

@@ -12,6 +12,7 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "core/system_error.hpp"
+#include "flow/steady/flame_steepness.hpp"
 #include "io/json.hpp"
 
 namespace lampblack::app {
@@ -50,6 +51,10 @@ double FlowLoop::totalHeatRelease() const {
   return total;
 }
 
+bool FlowLoop::burnsOrCannot() const {
+  return case_.mechanism->numReactions() == 0 || flow::flameSteepness(domain_->context, domain_->state).has_value();
+}
+
 void FlowLoop::findNorms(const FlowResidual& residual) {
   norms_ = residualNorms(domain_->context, domain_->state, residual, steadiness_.time());
   normsOf_ = steps_;
@@ -77,7 +82,7 @@ void FlowLoop::searchOn(Outputs& outputs) {
             std::make_unique<FlowResidual>(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
       residual_->evaluate(domain_->state);
       findNorms(*residual_);
-      search_->addResidualOfStep(largestNorm());
+      search_->addResidualOfStep(largestNorm(), burnsOrCannot());
     }
     lightIfDark(outputs);
   }
@@ -87,7 +92,8 @@ void FlowLoop::searchOn(Outputs& outputs) {
 // Every other time velocities and pressure have their quickest pace at once.
 void FlowLoop::makeIteration() {
   SteadyIteration::Options options{.scheme = case_.flow.velocityScheme};
-  if (search_->returns() % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
+  const int before = search_->isAttempt() ? search_->attempts() : search_->returns();
+  if (before % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
   iteration_ = std::make_unique<SteadyIteration>(domain_->context, domain_->state, options, operators_);
   backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
 }
@@ -95,6 +101,7 @@ void FlowLoop::makeIteration() {
 void FlowLoop::iterate(Outputs& outputs) {
   const ProcessorTime scope(processorTime_[Iterating]);
   if (!iteration_) makeIteration();
+  const int attemptsBefore = search_->attempts();
   try {
     SteadyIteration::Outcome outcome;
     {
@@ -109,7 +116,8 @@ void FlowLoop::iterate(Outputs& outputs) {
       domain_->stepControl.setHeatRelease(heatRelease());
       domain_->budget->begin(domain_->state);
       findNorms(residual);
-      search_->addIteration(largestNorm(), totalHeatRelease());
+      const double norm = largestNorm();
+      search_->addIteration(norm, totalHeatRelease(), norm > search_->options().residual || burnsOrCannot());
     } else {
       search_->addFailure(outcome.why);
     }
@@ -117,11 +125,12 @@ void FlowLoop::iterate(Outputs& outputs) {
     if (domain_->mesh.ranks > 1 && !isCollective(error)) throw;
     search_->endIterations(error.what());
   }
-  if (search_->phase() == SteadySearch::Phase::Steps) goBack(outputs);
+  if (search_->phase() == SteadySearch::Phase::Steps) goBack(outputs, attemptsBefore);
 }
 
-void FlowLoop::goBack(Outputs& outputs) {
+void FlowLoop::goBack(Outputs& outputs, int attemptsBefore) {
   iteration_.reset();
+  const bool wasAttempt = attemptsBefore != search_->attempts();
   if (search_->takesBack()) {
     restoreStepStart(time_, steps_);
   } else {
@@ -131,7 +140,7 @@ void FlowLoop::goBack(Outputs& outputs) {
   }
   normsOf_ = -1;
   outputs.progress.finish();
-  if (!search_->isGivenUp())
+  if (!search_->isGivenUp() && !wasAttempt)
     printWarnings({fmt::format("step {}: iterations end and steps in time go on{}: {}", steps_,
                                search_->takesBack() ? " from where they were" : "", search_->whyNot())});
 }
@@ -169,7 +178,9 @@ void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
     domain_->state.updateHalo(domain_->halo);
     makeIteration();
   }
-  if (iteration_) iteration_->saveOrLoad(domain_->state, archive);
+  if (!iteration_) return;
+  iteration_->saveOrLoad(domain_->state, archive);
+  backup_.saveOrLoad(archive, "steady_begin_");
 }
 
 std::vector<Quantity> FlowLoop::searchColumns() const {
@@ -204,14 +215,17 @@ std::string FlowLoop::searchPlace() const {
 std::vector<std::string> FlowLoop::searchLines() const {
   const std::string back = search_->returns() > 0 ? fmt::format(", {} times back to steps", search_->returns()) : "";
   const std::string lit = search_->lightings() > 0 ? fmt::format(", {} times lit", search_->lightings()) : "";
+  const std::string early = search_->isAttempt() && isSteady() ? ", before the heat release was quiet" : "";
+  const std::string takenBack =
+      search_->attempts() > 0 ? fmt::format(", {} of which were taken back", search_->iterationsTakenBack()) : "";
   const std::string first = search_->firstResidual() > 0.0
                                 ? fmt::format("{:.2e} before the first iteration, ", search_->firstResidual())
                                 : "";
   return {
-      fmt::format("{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s, and {} iterations{}{}; "
+      fmt::format("{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
                   "largest residual {}{:.2e} now",
-                  isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_,
-                  search_->iterations(), back, lit, first, largestNorm()),
+                  isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
+                  search_->iterations(), takenBack, back, lit, first, largestNorm()),
       fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s", processorTime_[InTime],
                   processorTime_[Iterating])};
 }
@@ -227,6 +241,9 @@ void FlowLoop::addSearch(JsonWriter& json) const {
   json.key("search").beginObject();
   json.field("steps_in_time", static_cast<std::int64_t>(search_->steps()));
   json.field("iterations", static_cast<std::int64_t>(search_->iterations()));
+  json.field("attempts_taken_back", static_cast<std::int64_t>(search_->attempts()));
+  json.field("iterations_taken_back", static_cast<std::int64_t>(search_->iterationsTakenBack()));
+  json.field("found_early", search_->isAttempt() && isSteady());
   json.field("returns_to_steps", static_cast<std::int64_t>(search_->returns()));
   json.field("times_lit", static_cast<std::int64_t>(search_->lightings()));
   json.field("residual_before_iterations", search_->firstResidual()).field("last_residual", largestNorm());

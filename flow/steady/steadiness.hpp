@@ -47,6 +47,7 @@ class Steadiness {
   // velocity, but no more than heat takes to be conducted over that length. Infinite where nothing is known yet.
   [[nodiscard]] double time() const;
   [[nodiscard]] std::string meaningOfTime() const;  // "residence time: ..."
+  [[nodiscard]] double lengthOfDomain() const;      // m, root of its area or third root of its volume
 
   // Of the field that changes most.
   struct Change {
@@ -94,7 +95,6 @@ class Steadiness {
   [[nodiscard]] int widthOf(const FieldDeclaration& field, const State& state) const;
   template <typename Take>
   void forEachValue(const State& state, Take take) const;
-  [[nodiscard]] double lengthOfDomain() const;
   [[nodiscard]] double timeOf(const Integrals& sums) const;
   [[nodiscard]] Integrals sumsOfPieces() const;
   [[nodiscard]] double changeOf(std::size_t field, Norm norm) const;

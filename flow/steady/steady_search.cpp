@@ -26,6 +26,8 @@ constexpr double mostGrown = 1e4;
 // is none. For a few iterations a flame that burns may release less, or take up heat.
 constexpr double leftOfHeat = 0.1;
 constexpr int darkIterations = 20;
+// Steps before the first attempt; iterations of one at most.
+constexpr int stepsOfAttempt = 20, mostOfAttempt = 300;
 
 }  // namespace
 
@@ -42,6 +44,16 @@ bool SteadySearch::isEstablished() const {
   return undisturbed_ >= quietSteps && high - low <= quietHeat * std::max(std::abs(low), std::abs(high));
 }
 
+bool SteadySearch::isAttemptDue() const {
+  return attempts_ < options_.attempts && options_.steps == 0 && returns_ == 0 &&
+         steps_ == stepsOfAttempt * ((2 << attempts_) - 1);
+}
+
+bool SteadySearch::hasNoIterationsLeft() const {
+  return isAttempt_ ? iterationsNow_ >= std::min(mostOfAttempt, options_.iterations)
+                    : iterations_ - attempted_ >= options_.iterations;
+}
+
 void SteadySearch::addStep(double heatRelease, bool wasRetried) {
   takesBack_ = false;
   ++steps_;
@@ -51,12 +63,14 @@ void SteadySearch::addStep(double heatRelease, bool wasRetried) {
   if (heat_.size() > static_cast<std::size_t>(quietSteps)) heat_.pop_front();
 }
 
-void SteadySearch::addResidualOfStep(double residual) {
+void SteadySearch::addResidualOfStep(double residual, bool burns) {
   latest_ = residual;
   isSteady_ = residual <= options_.residual;
   if (first_ > 0.0) least_ = std::min(least_, residual);
-  if (isSteady_ || !isEstablished()) return;
+  const bool established = isEstablished();
+  if (isSteady_ || !(established || (burns && isAttemptDue()))) return;
   phase_ = Phase::Iterations;
+  isAttempt_ = !established;
   if (!(first_ > 0.0)) first_ = least_ = residual;
   began_ = best_ = residual;
   heatAtBegin_ = heat_.back();
@@ -71,7 +85,7 @@ void SteadySearch::addLighting() {
   heat_.clear();
 }
 
-void SteadySearch::addIteration(double residual, double heatRelease) {
+void SteadySearch::addIteration(double residual, double heatRelease, bool burns) {
   ++iterations_;
   ++iterationsNow_;
   failures_ = 0;
@@ -86,26 +100,33 @@ void SteadySearch::addIteration(double residual, double heatRelease) {
     return;
   }
   least_ = std::min(least_, residual);
-  isSteady_ = residual <= options_.residual && dark_ == 0;
+  isSteady_ = residual <= options_.residual && dark_ == 0 && (burns || !isAttempt_);
   if (isSteady_) return;
+  if (residual <= options_.residual && !burns && isAttempt_) {
+    goBack("nothing burns in the steady state that was found");
+    return;
+  }
   if (residual < gain * best_) {
     best_ = residual;
     bestAt_ = iterationsNow_;
   }
   if (iterationsNow_ - bestAt_ >= patience)
     goBack(fmt::format("the residual has not fallen below {:.2e} in {} iterations", best_, patience));
-  else if (iterations_ >= options_.iterations)
+  else if (hasNoIterationsLeft() && isAttempt_)
+    goBack(fmt::format("{} iterations were not enough", iterationsNow_));
+  else if (hasNoIterationsLeft())
     isGivenUp_ = true;
 }
 
 void SteadySearch::addFailure(const std::string& why) {
   ++iterations_;
   ++iterationsNow_;
-  if (++failures_ >= mostFailures || iterations_ >= options_.iterations) goBack(why);
+  if (++failures_ >= mostFailures || hasNoIterationsLeft()) goBack(why);
 }
 
 void SteadySearch::endIterations(const std::string& why) {
   ++iterations_;
+  ++iterationsNow_;
   goBack(why);
   takesBack_ = true;
 }
@@ -114,8 +135,18 @@ void SteadySearch::goBack(const std::string& why) {
   whyNot_ = why;
   takesBack_ = dark_ > 0 || !(latest_ < began_);
   phase_ = Phase::Steps;
+  if (isAttempt_) {
+    isAttempt_ = false;
+    takesBack_ = true;
+    ++attempts_;
+    attempted_ += iterationsNow_;
+    first_ = least_ = 0.0;
+    dark_ = 0;
+    whyNot_.clear();
+    return;
+  }
   stepsNow_ = undisturbed_ = 0;
-  if (returns_ == options_.returns || iterations_ >= options_.iterations)
+  if (returns_ == options_.returns || hasNoIterationsLeft())
     isGivenUp_ = true;
   else
     ++returns_;
@@ -133,6 +164,7 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
                      &dark_, &lightings_})
     numbers.push_back(*count);
   numbers.push_back(phase_ == Phase::Iterations ? 1.0 : 0.0);
+  for (const int count : {attempts_, attempted_, isAttempt_ ? 1 : 0}) numbers.push_back(count);
   std::vector<double> heat(heat_.begin(), heat_.end());
   archive.shared("steady_search", numbers);
   archive.shared("steady_search_heat", heat);
@@ -142,7 +174,9 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
                      &dark_, &lightings_})
     *count = static_cast<int>(numbers.at(next++));
-  phase_ = numbers.at(next) != 0.0 ? Phase::Iterations : Phase::Steps;
+  phase_ = numbers.at(next++) != 0.0 ? Phase::Iterations : Phase::Steps;
+  for (int* count : {&attempts_, &attempted_}) *count = static_cast<int>(numbers.at(next++));
+  isAttempt_ = numbers.at(next) != 0.0;
   heat_.assign(heat.begin(), heat.end());
   isSteady_ = latest_ > 0.0 && latest_ <= options_.residual && dark_ == 0;
 }

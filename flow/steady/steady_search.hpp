@@ -19,6 +19,9 @@ class SteadySearch {
     int iterations = 1000;   // in all, before the search is given up
     int returns = 5;         // from iterations that fail to steps in time, before the search is given up
     int steps = 0;           // before the first iterations, twice as many with each return; 0: until the heat is quiet
+    // Attempts to iterate before that, after 20 steps and each after twice as many: an attempt that fails is taken
+    // back, and the search goes on as if it had not been.
+    int attempts = 0;
   };
   enum class Phase { Steps, Iterations };
 
@@ -37,10 +40,12 @@ class SteadySearch {
   // What came of a step in time: heat that reactions release in the domain (W, or per metre of depth or radian), and
   // whether the step was tried more than once.
   void addStep(double heatRelease, bool wasRetried);
-  // The largest residual of any equation, of the state that the steps have led to.
-  void addResidualOfStep(double residual);
-  // What came of an iteration that was taken.
-  void addIteration(double residual, double heatRelease);
+  // The largest residual of any equation, of the state that the steps have led to. `burns`: as for an iteration; nothing
+  // is attempted where nothing burns.
+  void addResidualOfStep(double residual, bool burns = true);
+  // What came of an iteration that was taken. `burns`: whether there is a flame in the state, or could be none; asked
+  // where the residual is low enough.
+  void addIteration(double residual, double heatRelease, bool burns = true);
   // An iteration that was not taken, and why; the next may be, as it tries less.
   void addFailure(const std::string& why);
   // The flow has been lit: the steps in time begin anew, as at the start of the search.
@@ -53,6 +58,10 @@ class SteadySearch {
   [[nodiscard]] int steps() const { return steps_; }
   [[nodiscard]] int returns() const { return returns_; }
   [[nodiscard]] int lightings() const { return lightings_; }
+  // Attempts that have failed, and their part of the iterations; whether the present iterations are one.
+  [[nodiscard]] int attempts() const { return attempts_; }
+  [[nodiscard]] int iterationsTakenBack() const { return attempted_; }
+  [[nodiscard]] bool isAttempt() const { return isAttempt_; }
   // With which the first iterations began; zero before.
   [[nodiscard]] double firstResidual() const { return first_; }
   // How far the residual has fallen since then, of what it has to fall on a logarithmic scale: 0 to 1.
@@ -64,6 +73,8 @@ class SteadySearch {
 
  private:
   [[nodiscard]] bool isEstablished() const;
+  [[nodiscard]] bool isAttemptDue() const;
+  [[nodiscard]] bool hasNoIterationsLeft() const;
   void goBack(const std::string& why);
 
   Options options_;
@@ -78,6 +89,8 @@ class SteadySearch {
   double began_ = 0.0, heatAtBegin_ = 0.0, best_ = 0.0;
   int iterationsNow_ = 0, bestAt_ = 0;
   int failures_ = 0, dark_ = 0;  // in a row: failures, iterations with a small part of that heat
+  int attempts_ = 0, attempted_ = 0;
+  bool isAttempt_ = false;
   std::string whyNot_;
 };
 

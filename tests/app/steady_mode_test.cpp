@@ -50,11 +50,28 @@ class FailsFrom : public Operator {
   double time_;
 };
 
+// Evaluates so many states, and fails in the next two: that of an iteration, and that which it goes back to.
+class FailsTwice : public Operator {
+ public:
+  explicit FailsTwice(int evaluations) : left_(evaluations) {}
+  [[nodiscard]] const char* name() const override { return "fault"; }
+  void advance(State&, double, double) override {}
+  void addRates(const State&, State::Balance&) override {
+    if (--left_ < 0 && left_ >= -2) collectively(MPI_COMM_WORLD, [] { throw NumericsError("made to fail"); });
+  }
+
+ private:
+  int left_;
+};
+
+// `restart`: the folder of a run, or a checkpoint.
 RunRecord runChannel(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                      const std::optional<std::filesystem::path>& restart = {}, Operator* more = nullptr) {
   FlowLoop loop(MPI_COMM_WORLD, readFlowCase(channel(overrides)));
   if (more != nullptr) loop.addOperator(*more);
-  if (restart) loop.load(newestCheckpoint(MPI_COMM_WORLD, *restart));
+  if (restart)
+    loop.load(restart->extension() == ".h5" ? wholeCheckpoint(MPI_COMM_WORLD, *restart)
+                                            : newestCheckpoint(MPI_COMM_WORLD, *restart));
   loop.run(RunFolder::prepare(path, false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
   RunRecord record;
   loop.report(1.0, record);
@@ -106,7 +123,7 @@ TEST(SteadyMode, WhereNothingIsFoundTheStateIsKeptToGoOnFrom) {
   const test::SharedScratchFolder scratch;
   const auto out = scratch.path() / "out";
   const std::string message = test::messageOf<NumericsError>([&] {
-    runChannel(out, {steady, "time.steady.residual=1e-9", "time.steady.iterations=2"});
+    runChannel(out, {steady, "time.steady.residual=1e-9", "time.steady.iterations=2", "time.steady.attempts=0"});
   });
   EXPECT_THAT(message, AllOf(HasSubstr("no steady state with residuals below 1e-09 was found in 50 steps in time and 2 "
                                        "iterations"),
@@ -138,7 +155,8 @@ void expectSameRun(const std::filesystem::path& found, const std::filesystem::pa
 
 TEST(SteadyMode, GoesOnFromACheckpointAsIfItHadNotStopped) {
   const test::SharedScratchFolder scratch;
-  const std::vector<std::string> settings{steady, "time.steady.residual=1e-6", "chemistry.share_work=false"};
+  const std::vector<std::string> settings{steady, "time.steady.residual=1e-6", "time.steady.attempts=0",
+                                          "chemistry.share_work=false"};
   runChannel(scratch.path() / "whole", settings);
   // Stopped in the steps in time.
   std::vector<std::string> failing = settings;
@@ -195,6 +213,64 @@ TEST(SteadyMode, LightsAFlameThatTheStartHasNotLit) {
   // A start without anything hot asks for no flame.
   EXPECT_THAT(runHydrogen(scratch.path() / "cold", {"initial.formula={temperature: '298'}"}).resultsJson,
               HasSubstr("\"times_lit\": 0"));
+}
+
+// Of the steps in time.
+std::vector<std::vector<double>> inTime(const Hdf5Reader& results) {
+  std::vector<std::vector<double>> columns;
+  const std::vector<double> iteration = results.numbers("/history/iteration");
+  for (const char* name : {"time", "dt", "maximum_temperature", "heat_release", "kinetic_energy"}) {
+    const std::vector<double> all = results.numbers(std::string("/history/") + name);
+    std::vector<double>& column = columns.emplace_back();
+    for (std::size_t row = 1; row < all.size(); ++row)
+      if (iteration[row] == iteration[row - 1]) column.push_back(all[row]);
+  }
+  return columns;
+}
+
+TEST(SteadyMode, StepsGoOnAfterAnAttemptAsWithoutIt) {
+  const test::SharedScratchFolder scratch;
+  const std::vector<std::string> settings{steady, "chemistry.share_work=false"};
+  const auto with = [&](int attempts) {
+    std::vector<std::string> all = settings;
+    all.push_back("time.steady.attempts=" + std::to_string(attempts));
+    return all;
+  };
+  const RunRecord plain = runChannel(scratch.path() / "plain", with(0));
+  FailsTwice fault(7);  // two of steps, one to begin with, four that are taken
+  const RunRecord failed = runChannel(scratch.path() / "failed", with(1), {}, &fault);
+  EXPECT_THAT(plain.resultsJson, AllOf(HasSubstr("\"attempts_taken_back\": 0"), HasSubstr("\"found_early\": false")));
+  EXPECT_THAT(failed.resultsJson,
+              AllOf(HasSubstr("\"attempts_taken_back\": 1"), HasSubstr("\"iterations_taken_back\": 5"),
+                    HasSubstr("\"found_early\": false"), HasSubstr("\"returns_to_steps\": 0")));
+  const Hdf5Reader a(scratch.path() / "plain/results.h5"), b(scratch.path() / "failed/results.h5");
+  EXPECT_EQ(inTime(a).front().size(), 49U);  // the first has none before it
+  EXPECT_EQ(inTime(a), inTime(b));
+  EXPECT_EQ(lastOf(a, "temperature"), lastOf(b, "temperature"));
+  EXPECT_EQ(lastOf(a, "velocity"), lastOf(b, "velocity"));
+  // One that does not fail.
+  EXPECT_THAT(runChannel(scratch.path() / "early", with(1)).resultsJson,
+              AllOf(HasSubstr("\"found_early\": true"), HasSubstr("\"steps_in_time\": 20,")));
+}
+
+// Stopped in an attempt that fails afterwards, and is taken back to what was before it.
+TEST(SteadyMode, AnAttemptGoesOnFromACheckpoint) {
+  const test::SharedScratchFolder scratch;
+  std::vector<std::string> settings{steady,
+                                    "chemistry.share_work=false",
+                                    "time.retries=0",
+                                    "checkpoint.steps=25",
+                                    "time.steady.residual=1e-12",
+                                    "time.steady.iterations=8"};
+  FailsFrom whole(1.8e-4), on(1.8e-4);
+  EXPECT_THROW(runChannel(scratch.path() / "whole", settings, {}, &whole), NumericsError);
+  EXPECT_THROW(runChannel(scratch.path() / "on", settings, scratch.path() / "whole/checkpoint/step_000025.h5", &on),
+               NumericsError);
+  const Hdf5Reader a(scratch.path() / "whole/results.h5.part"), b(scratch.path() / "on/results.h5.part");
+  EXPECT_EQ(a.numbers("/history/iteration").back(), 8.0);
+  EXPECT_EQ(a.names("/steps"), b.names("/steps"));
+  for (const char* field : {"temperature", "velocity", "pressure"}) EXPECT_EQ(lastOf(a, field), lastOf(b, field));
+  EXPECT_EQ(inTime(a), inTime(b));
 }
 
 struct Refused {

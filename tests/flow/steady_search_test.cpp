@@ -187,6 +187,83 @@ TEST(SteadySearch, IsGivenUpAfterItsIterations) {
   EXPECT_EQ(search.phase(), Phase::Iterations);  // from where another run may go on
 }
 
+// Steps of a flame that grows until it is quiet, so that it is established after 50.
+TEST(SteadySearch, AnAttemptThatFailsIsAsIfItHadNotBeen) {
+  SteadySearch search({.iterations = 30, .attempts = 2});
+  EXPECT_EQ(steps(search), 20);
+  EXPECT_TRUE(search.isAttempt());
+  for (int i = 0; i < 7; ++i) search.addFailure("too much");
+  search.addIteration(0.5 * high, 1.0);
+  for (int i = 0; i < 8; ++i) search.addFailure("too much");
+  EXPECT_FALSE(search.isAttempt());
+  EXPECT_TRUE(search.takesBack());
+  EXPECT_EQ(search.returns(), 0);
+  EXPECT_EQ(search.attempts(), 1);
+  EXPECT_EQ(search.iterationsTakenBack(), 16);
+  EXPECT_EQ(search.whyNot(), "");
+  EXPECT_EQ(search.progress(), 0.0);
+  // The heat of the steps before counts: the flow is quiet at 50 steps, before the next attempt would be due.
+  EXPECT_EQ(20 + steps(search), 50);
+  EXPECT_FALSE(search.isAttempt());
+  // All iterations are left to it.
+  for (int i = 0; i < 29; ++i) search.addIteration(0.5 * high, 1.0);
+  EXPECT_FALSE(search.isGivenUp());
+  search.addIteration(0.5 * high, 1.0);
+  EXPECT_TRUE(search.isGivenUp());
+  EXPECT_EQ(search.iterations(), 46);
+}
+
+TEST(SteadySearch, AttemptsComeAfterTwiceAsManySteps) {
+  SteadySearch search({.attempts = 3});
+  double heat = 1.0;
+  int count = 0;
+  std::vector<int> begun;
+  while (begun.size() < 5) {
+    search.addStep(heat *= 1.01, false);
+    ++count;
+    if (search.wantsResidual()) search.addResidualOfStep(high);
+    if (search.phase() != Phase::Iterations) continue;
+    begun.push_back(count);
+    search.endIterations("no pressure");
+  }
+  EXPECT_EQ(begun, (std::vector<int>{20, 60, 140, 300, 900}));
+  EXPECT_EQ(search.attempts(), 3);
+  EXPECT_EQ(search.iterationsTakenBack(), 3);
+  EXPECT_EQ(search.returns(), 2);
+  // Where the number of steps is given there are none.
+  SteadySearch asked({.steps = 30, .attempts = 2});
+  EXPECT_EQ(steps(asked), 30);
+  EXPECT_FALSE(asked.isAttempt());
+}
+
+TEST(SteadySearch, AnAttemptIsTakenWhereItBurns) {
+  for (const bool burns : {true, false}) {
+    SteadySearch search({.residual = 1e-6, .attempts = 1});
+    steps(search);
+    search.addIteration(1e-7, 1.0, burns);
+    EXPECT_EQ(search.isSteady(), burns);
+    EXPECT_EQ(search.isAttempt(), burns);
+    EXPECT_EQ(search.takesBack(), !burns);
+  }
+  // What an established flow comes to is what it is.
+  SteadySearch cold({.residual = 1e-6});
+  steps(cold);
+  cold.addIteration(1e-7, 1.0, false);
+  EXPECT_TRUE(cold.isSteady());
+}
+
+TEST(SteadySearch, AnAttemptHasNoMoreThanItsIterations) {
+  SteadySearch search({.attempts = 1});
+  steps(search);
+  double residual = high;
+  for (int i = 0; i < 299; ++i) search.addIteration(residual *= 0.99, 1.0);
+  EXPECT_TRUE(search.isAttempt());
+  search.addIteration(residual * 0.99, 1.0);
+  EXPECT_FALSE(search.isAttempt());
+  EXPECT_TRUE(search.takesBack());
+  EXPECT_EQ(search.phase(), Phase::Steps);
+}
+
 // By what a checkpoint has.
 void pass(SteadySearch& from, SteadySearch& to) {
   StateBackup kept(0, 0);
@@ -216,7 +293,7 @@ TEST(SteadySearch, WhatWasFoundIsFoundButForATighterLimit) {
 
 // At any point of the way.
 TEST(SteadySearch, GoesOnFromWhatWasSavedAsIfNothingHadBeen) {
-  for (const int until : {3, 47, 62, 74, 160}) {
+  for (const int until : {3, 25, 47, 62, 74, 150, 190, 280}) {
     SCOPED_TRACE(until);
     const auto advance = [](SteadySearch& search, int from, int to) {
       for (int i = from; i < to; ++i)
@@ -229,17 +306,21 @@ TEST(SteadySearch, GoesOnFromWhatWasSavedAsIfNothingHadBeen) {
           if (search.wantsResidual()) search.addResidualOfStep(high);
         }
     };
-    SteadySearch whole({}), first({}), second({});
-    advance(whole, 0, 400);
+    const SteadySearch::Options options{.attempts = 2};
+    SteadySearch whole(options), first(options), second(options);
+    advance(whole, 0, 700);
     advance(first, 0, until);
     pass(first, second);
-    advance(second, until, 400);
+    advance(second, until, 700);
     EXPECT_EQ(second.phase(), whole.phase());
     EXPECT_EQ(second.steps(), whole.steps());
     EXPECT_EQ(second.iterations(), whole.iterations());
     EXPECT_EQ(second.returns(), whole.returns());
     EXPECT_EQ(second.progress(), whole.progress());
+    EXPECT_EQ(second.attempts(), whole.attempts());
+    EXPECT_EQ(second.iterationsTakenBack(), whole.iterationsTakenBack());
     EXPECT_GT(whole.returns(), 1);
+    EXPECT_GT(whole.attempts(), 0);
   }
 }
 
