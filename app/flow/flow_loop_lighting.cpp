@@ -23,7 +23,9 @@ bool FlowLoop::isHot() const {
 
 void FlowLoop::lightIfDark(Outputs& outputs) {
   const bool goesOn = search_->phase() == SteadySearch::Phase::Steps && !search_->isSteady();
-  if (goesOn || search_->isAttempt() || !startsHot_ || !case_.time.search->lights || search_->lightings() == mostLightings) return;
+  if (goesOn || search_->isAttempt() || !startsHot_ || !case_.time.search->lights ||
+      search_->lightings() == mostLightings)
+    return;
   if (burnsOrCannot()) return;
   const std::int64_t cells = flow::lightMixture(domain_->context, domain_->state);
   if (cells == 0) return;

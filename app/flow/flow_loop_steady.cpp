@@ -221,13 +221,13 @@ std::vector<std::string> FlowLoop::searchLines() const {
   const std::string first = search_->firstResidual() > 0.0
                                 ? fmt::format("{:.2e} before the first iteration, ", search_->firstResidual())
                                 : "";
-  return {
-      fmt::format("{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
-                  "largest residual {}{:.2e} now",
-                  isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
-                  search_->iterations(), takenBack, back, lit, first, largestNorm()),
-      fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s", processorTime_[InTime],
-                  processorTime_[Iterating])};
+  return {fmt::format(
+              "{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
+              "largest residual {}{:.2e} now",
+              isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
+              search_->iterations(), takenBack, back, lit, first, largestNorm()),
+          fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s",
+                      processorTime_[InTime], processorTime_[Iterating])};
 }
 
 void FlowLoop::tellSearch() {

@@ -40,8 +40,8 @@ class SteadySearch {
   // What came of a step in time: heat that reactions release in the domain (W, or per metre of depth or radian), and
   // whether the step was tried more than once.
   void addStep(double heatRelease, bool wasRetried);
-  // The largest residual of any equation, of the state that the steps have led to. `burns`: as for an iteration; nothing
-  // is attempted where nothing burns.
+  // The largest residual of any equation, of the state that the steps have led to. `burns`: as for an iteration;
+  // nothing is attempted where nothing burns.
   void addResidualOfStep(double residual, bool burns = true);
   // What came of an iteration that was taken. `burns`: whether there is a flame in the state, or could be none; asked
   // where the residual is low enough.

@@ -75,6 +75,19 @@ TEST(SteadySearch, TakesAsManyStepsAnewOnceLit) {
   EXPECT_FALSE(dark.isSteady());
 }
 
+TEST(SteadySearch, AttemptsNothingWhereNothingBurns) {
+  SteadySearch search({.attempts = 2});
+  for (int step = 1; step <= 49; ++step) {
+    search.addStep(1.0, false);
+    if (search.wantsResidual()) search.addResidualOfStep(high, false);
+    EXPECT_EQ(search.phase(), Phase::Steps) << step;
+  }
+  search.addStep(1.0, false);
+  search.addResidualOfStep(high, false);
+  EXPECT_EQ(search.phase(), Phase::Iterations);
+  EXPECT_FALSE(search.isAttempt());
+}
+
 TEST(SteadySearch, EndsWhereTheResidualIsLowEnough) {
   SteadySearch byIterations({.residual = 1e-6});
   steps(byIterations);
