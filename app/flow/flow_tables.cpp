@@ -92,6 +92,18 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
     const std::string name = flowcase::fileNameOf(flowCase.boundaries[b].name);
     tables_.push_back({"deposit", name, "/deposits/" + name, columns});
   }
+  for (const std::size_t b : walls()) {
+    std::vector<Quantity> columns = momentColumns;
+    for (const std::string& axis : axes)
+      columns.push_back({axis, "m", "coordinate of the face's middle along " + axis});
+    columns.push_back({"area", integralUnit(context.mesh, "m^2"), "of the face"});
+    for (const std::string& axis : axes)
+      columns.push_back({"friction_" + axis, "Pa", "of the gas along the wall, along " + axis});
+    columns.push_back({"y_plus", "1", "of the centre of the cell beside"});
+    columns.push_back({"heat_flux", "W/m^2", "conducted into the gas, mean of the step"});
+    const std::string name = flowcase::fileNameOf(flowCase.boundaries[b].name);
+    tables_.push_back({"wall", name, "/walls/" + name, columns});
+  }
   makeRegions();
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     const std::string& name = tables.regions[r].name;
@@ -172,6 +184,13 @@ std::vector<std::size_t> FlowTables::deposits() const {
   for (const std::size_t b : case_.output.tables.boundaries)
     if (hasDeposition_ && case_.boundaries[b].kind == BoundaryKind::Wall && case_.boundaries[b].takesParticles)
       found.push_back(b);
+  return found;
+}
+
+std::vector<std::size_t> FlowTables::walls() const {
+  std::vector<std::size_t> found;
+  for (const std::size_t b : case_.output.tables.boundaries)
+    if (case_.boundaries[b].kind == BoundaryKind::Wall && !case_.boundaries[b].slip) found.push_back(b);
   return found;
 }
 
@@ -299,6 +318,18 @@ void FlowTables::outputRows(const Moment& moment, const Source& source) {
       rows.insert(rows.end(), {static_cast<double>(moment.step), moment.time});
       rows.insert(rows.end(), face.place.begin(), face.place.begin() + context_->mesh.dimension);
       rows.insert(rows.end(), {face.area, face.flux, face.mass});
+    }
+    writers_[table++].row(rows);
+  }
+  for (const std::size_t b : walls()) {
+    const auto axes = static_cast<std::size_t>(context_->mesh.dimension);
+    std::vector<double> rows;
+    for (const WallFace& face : source.transport.wallFaces(source.state, static_cast<int>(b))) {
+      rows.insert(rows.end(), {static_cast<double>(moment.step), moment.time});
+      rows.insert(rows.end(), face.place.begin(), face.place.begin() + axes);
+      rows.push_back(face.area);
+      rows.insert(rows.end(), face.friction.begin(), face.friction.begin() + axes);
+      rows.insert(rows.end(), {face.yPlus, face.heatFlux});
     }
     writers_[table++].row(rows);
   }

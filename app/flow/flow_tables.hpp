@@ -80,6 +80,7 @@ class FlowTables {
   [[nodiscard]] std::vector<Quantity> boundaryColumns(std::size_t boundary) const;
   // Of the boundaries that are asked for, those whose faces have a table.
   [[nodiscard]] std::vector<std::size_t> deposits() const;
+  [[nodiscard]] std::vector<std::size_t> walls() const;  // the same of friction and heat
 
   const FlowContext* context_;
   const FlowCase& case_;

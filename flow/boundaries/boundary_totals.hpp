@@ -1,6 +1,8 @@
-// What passes through a boundary and presses on it, summed over its faces: per radian of an axisymmetric flow, per
-// metre of depth of a plane one.
+// What passes through a boundary and presses on it, summed over its faces and face by face: per radian of an
+// axisymmetric flow, per metre of depth of a plane one.
 #pragma once
+
+#include <cstdint>
 
 #include "core/mesh.hpp"
 #include "core/modules.hpp"
@@ -14,6 +16,16 @@ struct BoundaryTotals {
   double heatFlow = 0.0;      // W, into the domain: the part of it that is conducted
   // N, of the gas on what lies beyond, along the mesh's axes: by the hydrodynamic pressure, and by friction.
   Vector3 pressureForce{}, viscousForce{};
+};
+
+// A face of a wall that the gas sticks to.
+struct WallFace {
+  std::int64_t number = 0;  // permanent
+  Vector3 place{};          // m
+  double area = 0.0;        // m^2, as above
+  Vector3 friction{};       // Pa, of the gas along the wall
+  double yPlus = 0.0;       // y+ of the centre of the cell beside, with the molecular viscosity
+  double heatFlux = 0.0;    // W/m^2, conducted into the gas, mean of the last step
 };
 
 }  // namespace lampblack::flow

@@ -108,6 +108,9 @@ class TransportOperator : public Operator {
   }
   // Of each boundary, in the context's order. Collective.
   [[nodiscard]] std::vector<BoundaryTotals> boundaryTotals(const State& state);
+  // The faces of a boundary that is a wall without slip, in the order of their numbers. Collective; on rank 0, none
+  // elsewhere.
+  [[nodiscard]] std::vector<WallFace> wallFaces(const State& state, int boundary);
 
   // Makes the mass fluxes of a new state consistent with its velocity, and its velocity with what its diffusion expands
   // the gas by: a projection without advancing anything. Collective.

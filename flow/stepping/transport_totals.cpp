@@ -1,7 +1,11 @@
 // What the transport tells of the flow as a whole: integrals over the domain and over its boundaries.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <utility>
 #include <vector>
 
+#include "core/gather.hpp"
 #include "flow/stepping/transport_operator.hpp"
 
 namespace lampblack::flow {
@@ -89,6 +93,27 @@ std::vector<BoundaryTotals> TransportOperator::boundaryTotals(const State& state
     totals.push_back({s[0], s[1], s[2], s[3], {s[4], s[5], s[6]}, {s[7], s[8], s[9]}});
   }
   return totals;
+}
+
+std::vector<WallFace> TransportOperator::wallFaces(const State& state, int boundary) {
+  const Mesh& m = context_.mesh;
+  momentum_.forces().velocityGradient(state);
+  std::vector<WallFace> own;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const int b = face - m.interiorFaces;
+    if (m.patch[b] != boundary || m.area[face] <= 0.0) continue;
+    const Vector3 traction =
+        momentum_.forces().boundaryTraction(face, state, properties_.effectiveBoundaryViscosity()[b]);
+    const Vector3 along = difference(traction, scaled(m.normal[face], dot(traction, m.normal[face])));
+    const double density = state.density[m.low[face]];
+    WallFace wall{m.faceNumber[face], m.faceCentre[face], m.area[face], scaled(along, 1.0 / m.area[face])};
+    wall.yPlus = std::sqrt(length(wall.friction) * density) * m.distance[face] / properties_.boundaryViscosity[b];
+    wall.heatFlux = -heat_.heat[face] / m.area[face];
+    own.push_back(wall);
+  }
+  std::vector<WallFace> faces = gatheredOnFirst(m.comm, std::move(own)).values;
+  std::ranges::sort(faces, {}, &WallFace::number);
+  return faces;
 }
 
 }  // namespace lampblack::flow
