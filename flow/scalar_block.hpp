@@ -39,6 +39,7 @@ struct ScalarBlock {
   std::string owner;
   std::vector<CarriedScalar> scalars;
   bool givesEddies = false;  // its owner sets State::eddyViscosity
+  bool hasWallLaw = false;   // its first scalar is the turbulent energy by which gas meets walls (wall_law.hpp)
 };
 
 // Where the block of an owner stands among all carried scalars.

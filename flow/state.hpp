@@ -22,6 +22,7 @@ struct State {
   int dimension = 2;
   bool swirls = false;
   bool hasEddies = false;
+  int wallEnergy = -1;  // which carried scalar is the turbulent energy of the law of the wall; -1: walls are resolved
   std::vector<ScalarRange> blocks;                                         // of carried scalars, one behind the other
   std::vector<CarriedScalar> scalars;                                      // of all blocks
   [[nodiscard]] const ScalarRange& block(const std::string& owner) const;  // std::logic_error
@@ -57,6 +58,10 @@ struct State {
     // Adds to what is exchanged. A species not seen before gets its place.
     void exchange(std::size_t cell, std::size_t species, double rate);
     void clear();  // but for the reactions
+    // Per m^3 and s: what is made of a carried scalar less what is taken, where there is that much.
+    [[nodiscard]] double netOfCarried(std::size_t i, std::span<const double> amounts) const {
+      return carried[i] - carriedSink[i] * amounts[i];
+    }
   } balance;
 
   // The step's start, which the first operator of a step keeps and the others read: what they change is counted from

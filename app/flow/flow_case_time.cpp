@@ -43,8 +43,8 @@ void requirePressure(const Deck& deck, const FlowCase& flowCase) {
   };
   if (std::ranges::any_of(flowCase.boundaries, isOf(BoundaryKind::Outlet))) return;
   const Stream &low = flowCase.initial.low, &high = flowCase.initial.high;
-  const bool isOneGas = flowCase.initialFields.isEmpty() && low.temperature == high.temperature && low.Y == high.Y &&
-                        deck.choice("initial.layer") == "none";
+  const bool isOneGas = flowCase.initialFields.gas.isEmpty() && low.temperature == high.temperature &&
+                        low.Y == high.Y && deck.choice("initial.layer") == "none";
   const auto changes = [&](const BoundaryCondition& boundary) {
     return boundary.kind == BoundaryKind::Inlet || boundary.heatFlux != 0.0 || boundary.varies.heatFlux ||
            !boundary.varies.gas.isEmpty() || (boundary.isothermal && boundary.temperature != low.temperature);
@@ -281,10 +281,6 @@ void requireModeOfParticles(const Deck& deck) {
 void readTime(const Deck& deck, FlowCase& flowCase) {
   TimeControl& time = flowCase.time;
   if (isSearched(deck)) {
-    if (flowCase.turbulence.model)
-      throw deck.error(mode,
-                       "a steady state is not sought with a turbulence model, whose eddies follow in time; expected "
-                       "'transient' with 'time.steady'");
     time.search = readSearch(deck, flowCase);
     time.end = std::numeric_limits<double>::infinity();
   } else {

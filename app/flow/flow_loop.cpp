@@ -128,6 +128,8 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   if (case_.time.steady && !isSteady()) {
     printWarnings({fmt::format("time.end, {:.6g} s, has come before the flow is steady", case_.time.end)});
   }
+  if (domain_->turbulence)
+    if (const std::string warning = domain_->turbulence->warning(); !warning.empty()) printWarnings({warning});
   if (case_.checkpoint.atEnd) {
     const std::string problem = writeCheckpoint(outputs);
     if (!problem.empty()) printWarnings({problem});

@@ -94,8 +94,11 @@ void FlowLoop::makeIteration() {
   SteadyIteration::Options options{.scheme = case_.flow.velocityScheme};
   const int before = search_->isAttempt() ? search_->attempts() : search_->returns();
   if (before % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
-  iteration_ = std::make_unique<SteadyIteration>(domain_->context, domain_->state, options, operators_);
   backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
+  // What is a function of the state becomes it, such as an eddy viscosity that lags behind in time.
+  for (Operator* op : operators_) op->setDiffusivities(domain_->state);
+  domain_->state.updateHalo(domain_->halo);
+  iteration_ = std::make_unique<SteadyIteration>(domain_->context, domain_->state, options, operators_);
 }
 
 void FlowLoop::iterate(Outputs& outputs) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "flow/boundaries/wall_flux.hpp"
+#include "flow/boundaries/wall_law.hpp"
 #include "flow/discretisation/face_fluxes.hpp"
 
 namespace lampblack::flow {
@@ -45,7 +46,8 @@ double CarriedTransport::driftToWall(const Gas& gas, int face) const {
   const double conductivity = gas.properties.boundaryConductivity[b];
   double T = context_.boundaryTemperature(face);
   if (!context_.isTemperatureGiven(face))
-    T = gas.mean.temperature[m.low[face]] - gas.heat[face] / m.area[face] * m.distance[face] / conductivity;
+    T = gas.mean.temperature[m.low[face]] -
+        gas.heat[face] / m.area[face] * m.distance[face] / gas.properties.effectiveBoundaryConductivity()[b];
   return gas.properties.boundaryViscosity[b] / conductivity * gas.heat[face] / T;
 }
 
@@ -57,7 +59,17 @@ double CarriedTransport::wallDiffusion(const State& state, const FaceState& face
   const double share = state.scalars[scalar].wallDiffusivity;
   if (share > 0.0 && context_.boundaryOf(face).kind == BoundaryKind::Wall)
     return metric * share * properties.boundaryViscosity[face - m.interiorFaces];
-  return faces.density[face] * metric * state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
+  const double D = state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
+  if (state.wallEnergy >= 0 && state.scalars[scalar].isStirred && D > 0.0 &&
+      context_.boundaryOf(face).kind == BoundaryKind::Wall && !context_.boundaryOf(face).slip) {
+    const auto cell = static_cast<std::size_t>(m.low[face]);
+    const double viscosity = properties.boundaryViscosity[face - m.interiorFaces];
+    const double exchange = walllaw::exchange(state, cell, m.distance[face]);
+    if (exchange > 0.0)
+      return metric * exchange /
+             walllaw::scalar(exchange / viscosity, viscosity / (state.density[cell] * D), context_.eddies.schmidt);
+  }
+  return faces.density[face] * metric * D;
 }
 
 const std::vector<double>& CarriedTransport::diffusivities(const State& state) const {

@@ -116,8 +116,7 @@ void FlowResidual::addMadeOfCarried(const State& state) {
   const std::size_t scalars = state.scalars.size();
   for (std::size_t i = 0; i < rates_.carried.size(); ++i)
     if (state.scalars[i % scalars].isTransported)
-      rates_.carried[i] +=
-          m.volume[i / scalars] * (rates_.made.carried[i] - rates_.made.carriedSink[i] * state.carried[i]);
+      rates_.carried[i] += m.volume[i / scalars] * rates_.made.netOfCarried(i, state.carried);
 }
 
 void FlowResidual::addCarried(const State& state) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "flow/boundaries/wall_law.hpp"
+
 namespace lampblack::flow {
 
 GasProperties::Coefficients GasProperties::evaluate(const FlowContext& context, double T, double p,
@@ -59,13 +61,30 @@ void GasProperties::addEddies(const FlowContext& context, const State& state) {
   effectiveBoundaryConductivity_ = boundaryConductivity;
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryCondition& boundary = context.boundaryOf(face);
-    if (boundary.kind == BoundaryKind::Wall && !boundary.slip) continue;
+    const bool isSticky = boundary.kind == BoundaryKind::Wall && !boundary.slip;
     const auto b = static_cast<std::size_t>(face - m.interiorFaces);
     const auto cell = static_cast<std::size_t>(m.low[face]);
+    if (isSticky && state.wallEnergy >= 0) addWallLaw(context, state, face);
+    if (isSticky) continue;
     const double eddies = state.eddyViscosity[cell];
     effectiveBoundaryViscosity_[b] += eddies;
     effectiveBoundaryConductivity_[b] += heatCapacity[cell] * eddies / context.eddies.prandtl;
   }
+}
+
+// Viscosity and conductivity with which a slope over the distance to the wall is the law's friction and heat. Where
+// the viscous layers reach to the cell's centre they are those of the molecules.
+void GasProperties::addWallLaw(const FlowContext& context, const State& state, int face) {
+  const Mesh& m = context.mesh;
+  const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+  const auto cell = static_cast<std::size_t>(m.low[face]);
+  const double exchange = walllaw::exchange(state, cell, m.distance[face]);
+  const double yStar = exchange / boundaryViscosity[b];
+  const double prandtl = boundaryViscosity[b] * heatCapacity[cell] / boundaryConductivity[b];
+  if (walllaw::isLogarithmic(yStar)) effectiveBoundaryViscosity_[b] = exchange / walllaw::velocity(yStar);
+  if (yStar > 0.0)
+    effectiveBoundaryConductivity_[b] =
+        exchange * heatCapacity[cell] / walllaw::scalar(yStar, prandtl, context.eddies.prandtl);
 }
 
 void GasProperties::updateBoundary(const FlowContext& context, const State& state) {

@@ -32,8 +32,8 @@ struct GasProperties {
   // kg/m/s, of every species alike: what eddies add; empty in laminar flow.
   std::vector<double> eddyDiffusivity;
 
-  // Molecular and turbulent together: Pa s, W/m/K. Eddies end at walls that the gas sticks to; at other boundaries they
-  // are those of the cell.
+  // Molecular and turbulent together: Pa s, W/m/K. Eddies end at walls that the gas sticks to, where
+  // they are those of the law of the wall if the state has its energy; at other boundaries they are those of the cell.
   [[nodiscard]] const std::vector<double>& effectiveViscosity() const { return of(effectiveViscosity_, viscosity); }
   [[nodiscard]] const std::vector<double>& effectiveConductivity() const {
     return of(effectiveConductivity_, conductivity);
@@ -57,6 +57,7 @@ struct GasProperties {
   Coefficients evaluate(const FlowContext& context, double T, double p, std::span<const double> Y, std::span<double> D);
   void updateBoundary(const FlowContext& context, const State& state);
   void addEddies(const FlowContext& context, const State& state);
+  void addWallLaw(const FlowContext& context, const State& state, int face);
   [[nodiscard]] const std::vector<double>& of(const std::vector<double>& effective,
                                               const std::vector<double>& molecular) const {
     return eddyDiffusivity.empty() ? molecular : effective;

@@ -160,7 +160,7 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
     forEachCell([&](std::size_t c, const Vector3& place) {
       const double perMass = state.carried[c * scalars + s] / state.density[c];
       sums.left(rates.carried[c * scalars + s] - perMass * rates.mass[c], place);
-      sums.made(m.volume[c] * std::max(rates.made.carried[c * scalars + s], 0.0));
+      sums.made(m.volume[c] * std::max(rates.made.netOfCarried(c * scalars + s, state.carried), 0.0));
       sums.brought(perMass);
     });
   }

@@ -92,7 +92,7 @@ double SteadyIteration::ofCarried(const State& state, double through) const {
       const double perMass = state.carried[i] / state.density[c];
       if (!state.scalars[s].isTransported) continue;
       sums[s] += std::abs(rates.carried[i] - perMass * rates.mass[c]);
-      sums[n + s] += context_.mesh.volume[c] * std::max(rates.made.carried[i], 0.0);
+      sums[n + s] += context_.mesh.volume[c] * std::max(rates.made.netOfCarried(i, state.carried), 0.0);
       most[s] = std::max(most[s], std::abs(perMass));
     }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(2 * n), MPI_DOUBLE, MPI_SUM, context_.mesh.comm);

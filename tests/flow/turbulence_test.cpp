@@ -186,6 +186,28 @@ TEST(Turbulence, TheLogLayerSolvesTheEquations) {
     EXPECT_NEAR(netRate(rates, cell, 0) / dissipation, 0.0, 1e-6) << of.model;
     EXPECT_NEAR(netRate(rates, cell, 1) / spread, -1.0, 1e-3) << of.model;
   }
+  // k-epsilon: kappa^2 = (C_2 - C_1) sigma_epsilon C_mu^(1/2).
+  const double kappa = std::sqrt(0.48 * 1.3 * 0.3), shear = u / (kappa * y), epsilon = u * u * shear;
+  const TurbulentCell cell{.strain = shear, .viscosity = 1e-9, .values = {u * u / 0.3, epsilon}};
+  const TurbulentRates rates = ratesOf("k_epsilon", cell);
+  EXPECT_NEAR(rates.eddyViscosity / (kappa * u * y), 1.0, 1e-9);
+  EXPECT_NEAR(rates.diffusivity[0] / (kappa * u * y), 1.0, 1e-6);
+  EXPECT_NEAR(rates.diffusivity[1] * 1.3 / (kappa * u * y), 1.0, 1e-6);
+  EXPECT_NEAR(netRate(rates, cell, 0) / epsilon, 0.0, 1e-9);
+  EXPECT_NEAR(netRate(rates, cell, 1) * 1.3 * y * y / std::pow(u, 4), -1.0, 1e-9);
+}
+
+// Gas that expands takes -2/3 k div u of k, and C_1 epsilon/k times that of epsilon.
+TEST(Turbulence, DilatationOfKEpsilonIsThatOfItsProduction) {
+  TurbulentCell cell{.strain = 100.0, .viscosity = nu, .values = {0.3, 40.0}};
+  const TurbulentRates still = ratesOf("k_epsilon", cell);
+  for (const double dilatation : {50.0, -50.0}) {
+    cell.dilatation = dilatation;
+    const TurbulentRates rates = ratesOf("k_epsilon", cell);
+    const double less = -2.0 / 3.0 * dilatation;
+    expectShare(netRate(rates, cell, 0) - netRate(still, cell, 0), less * 0.3);
+    expectShare(netRate(rates, cell, 1) - netRate(still, cell, 1), 1.44 * less * 40.0);
+  }
 }
 
 // One cell in time by Runge and Kutta's method.
@@ -218,6 +240,10 @@ TEST(Turbulence, DecaysAsInClosedForm) {
     EXPECT_NEAR(cell.values[0] / left, 1.0, 1e-6) << model;
     EXPECT_NEAR(cell.values[1] * cell.values[1], (1.0 + beta * omega * time) / omega, 1e-6 * time) << model;
   }
+  TurbulentCell decaying{.viscosity = 1e-9, .values = {1.0, 1.0}};
+  advanceCell("k_epsilon", decaying, 10.0, 400);
+  EXPECT_NEAR(decaying.values[0] / std::pow(10.2, -1.0 / 0.92), 1.0, 1e-6);
+  EXPECT_NEAR(decaying.values[1] / std::pow(decaying.values[0], 1.92), 1.0, 1e-6);
   for (const char* model : {"sa", "wray_agarwal", "wang"}) {
     TurbulentCell cell{.distance = 1e6, .viscosity = 1e-9, .values = {1e-3}};
     advanceCell(model, cell, 10.0, 20);
@@ -241,6 +267,12 @@ TEST(Turbulence, GrowsInHomogeneousShear) {
     EXPECT_NEAR(std::log(cell.values[0] / before), of.growth, 2e-4) << of.model;
     EXPECT_NEAR(1.0 / (cell.values[1] * cell.values[1]), of.ofShear, 2e-3) << of.model;
   }
+  TurbulentCell sheared{.strain = 1.0, .viscosity = 1e-9, .values = {1.0, 0.3}};
+  advanceCell("k_epsilon", sheared, 60.0, 600);
+  const double k = sheared.values[0];
+  EXPECT_NEAR(k / sheared.values[1], 4.820, 2e-3);
+  advanceCell("k_epsilon", sheared, 1.0, 10);
+  EXPECT_NEAR(std::log(sheared.values[0] / k), 0.2263, 2e-4);
   for (const Growth& of : {Growth{"sa", 0.1355, 0}, Growth{"wray_agarwal", 0.1284, 0}, Growth{"wang", 0.144, 0}}) {
     TurbulentCell cell{.strain = 1.0, .vorticity = 1.0, .distance = 1e9, .viscosity = 1e-9, .values = {1.0}};
     // The switch of Wray and Agarwal's model is tanh(1/16) here.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "flow/models/turbulence/k_epsilon.hpp"
 #include "flow/models/turbulence/k_omega.hpp"
 #include "flow/models/turbulence/shear_stress_transport.hpp"
 #include "flow/models/turbulence/spalart_allmaras.hpp"
@@ -28,6 +29,7 @@ const std::array rows{
     TurbulenceRow{"sst1994", "k-omega SST of Menter, 1994", make<ShearStressTransport<1994>>},
     TurbulenceRow{"k_omega", "k-omega of 2006 (Wilcox 2008)", make<KOmega<2006>>},
     TurbulenceRow{"k_omega1988", "k-omega of 1988 (Wilcox 1988)", make<KOmega<1988>>},
+    TurbulenceRow{"k_epsilon", "k-epsilon of Launder and Spalding 1974, with wall functions", make<KEpsilon>},
 };
 
 }  // namespace

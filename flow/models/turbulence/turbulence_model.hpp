@@ -64,9 +64,13 @@ class TurbulenceModel {
 
   virtual ~TurbulenceModel() = default;
   [[nodiscard]] virtual std::string name() const = 0;
-  [[nodiscard]] virtual std::vector<Variable> variables() const = 0;  // zero at walls
+  [[nodiscard]] virtual std::vector<Variable> variables() const = 0;  // zero at walls that are resolved
   [[nodiscard]] virtual bool needsWallDistance() const = 0;
   [[nodiscard]] virtual bool needsStrainGradient() const = 0;
+  // Whether the law of the wall stands for the layers beside walls, which are then not resolved: the first variable is
+  // k, which has no slope there, the second its dissipation, which is that of the law in the cells beside them.
+  [[nodiscard]] virtual bool usesWallLaw() const { return false; }
+  // Its first variable is k then.
   [[nodiscard]] bool knowsEnergy() const { return variables().size() > 1; }
   [[nodiscard]] virtual std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const = 0;
   virtual void evaluate(std::span<const TurbulentCell> cells, std::span<TurbulentRates> rates) const = 0;
@@ -81,6 +85,10 @@ class PointwiseModel : public TurbulenceModel {
   [[nodiscard]] std::vector<Variable> variables() const override { return kernel_.variables(); }
   [[nodiscard]] bool needsWallDistance() const override { return Kernel::needsWallDistance; }
   [[nodiscard]] bool needsStrainGradient() const override { return Kernel::needsStrainGradient; }
+  [[nodiscard]] bool usesWallLaw() const override {
+    if constexpr (requires { Kernel::usesWallLaw; }) return Kernel::usesWallLaw;
+    return false;
+  }
   [[nodiscard]] std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const override {
     return kernel_.freeStream(stream);
   }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -18,7 +17,7 @@ constexpr const char* owner = "turbulence";
 
 ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std::vector<BoundaryCondition>& conditions,
                                         const std::vector<FreeStream>& boundaries) {
-  ScalarBlock block{.owner = owner, .scalars = {}, .givesEddies = true};
+  ScalarBlock block{.owner = owner, .scalars = {}, .givesEddies = true, .hasWallLaw = model.usesWallLaw()};
   for (const TurbulenceModel::Variable& variable : model.variables())
     block.scalars.push_back({.name = variable.name,
                              .unit = variable.unit,
@@ -31,7 +30,8 @@ ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std:
       const BoundaryKind kind = conditions[b].kind;
       if (kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet)
         boundary.value = model.freeStream(boundaries[b])[s];
-      boundary.isHeld = kind == BoundaryKind::Inlet || (kind == BoundaryKind::Wall && !conditions[b].slip);
+      const bool isResolved = kind == BoundaryKind::Wall && !conditions[b].slip && !model.usesWallLaw();
+      boundary.isHeld = kind == BoundaryKind::Inlet || isResolved;
       block.scalars[s].boundaries.push_back(boundary);
     }
   return block;
@@ -55,6 +55,7 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   rates_.resize(owned);
   beside_.resize(owned);
   ratesBeside_.resize(owned);
+  slopes_.resize(owned);
   values_.resize(cells * count_);
   boundaryValues_.resize(faces * count_);
   valueGradient_.resize(cells * count_ * d);
@@ -76,11 +77,7 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
     for (std::size_t v = 0; v < count_; ++v)
       boundaryValues_[b * count_ + v] = state.scalars[first_ + v].boundaries[patch].value;
   }
-}
-
-bool TurbulenceOperator::isSticky(int face) const {
-  const BoundaryCondition& boundary = context_.boundaryOf(face);
-  return boundary.kind == BoundaryKind::Wall && !boundary.slip;
+  findLayers();
 }
 
 void TurbulenceOperator::setStart(State& state, const FreeStream& start) const {
@@ -136,17 +133,6 @@ void TurbulenceOperator::findShear() {
   }
 }
 
-// 1/s, one-sided: along the wall, of the gas beside it.
-double TurbulenceOperator::strainAtWall(int face, const State& state) const {
-  const Mesh& m = context_.mesh;
-  const int d = m.dimension;
-  Vector3 rise{};
-  for (int i = 0; i < d; ++i)
-    rise[i] = state.velocity[d * m.low[face] + i] - velocityGradient_.boundary()[d * (face - m.interiorFaces) + i];
-  const double across = dot(rise, m.normal[face]);
-  return std::sqrt(std::max(dot(rise, rise) - across * across, 0.0)) / m.distance[face];
-}
-
 void TurbulenceOperator::addStrainGradient(const State& state) {
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(m.dimension);
@@ -193,6 +179,7 @@ void TurbulenceOperator::evaluate(const State& state) {
   if (model_->needsStrainGradient()) addStrainGradient(state);
   model_->evaluate(cells_, rates_);
   linearise();
+  if (model_->usesWallLaw()) applyWallLaw(state);
 }
 
 // Sinks become what a rate falls by as its own variable rises, where that is more; the rates stay what they are. The
@@ -201,6 +188,7 @@ void TurbulenceOperator::evaluate(const State& state) {
 void TurbulenceOperator::linearise() {
   constexpr double small = 1e-6;
   std::ranges::copy(cells_, beside_.begin());
+  std::ranges::fill(slopes_, Slope{});
   const auto net = [](const TurbulentRates& of, const TurbulentCell& cell, std::size_t v) {
     return of.source[v] - of.sink[v] * cell.values[v];
   };
@@ -213,6 +201,8 @@ void TurbulenceOperator::linearise() {
       if (!(cells_[c].values[v] > 0.0)) continue;
       TurbulentCell moved = cells_[c];
       moved.values[v] += rise;
+      for (std::size_t w = 0; w < count_; ++w)
+        if (w != v) slopes_[c][w][v] = (net(ratesBeside_[c], moved, w) - net(rates_[c], cells_[c], w)) / rise;
       const double more = -(net(ratesBeside_[c], moved, v) - net(rates_[c], cells_[c], v)) / rise - rates_[c].sink[v];
       if (!(more > 0.0)) continue;
       rates_[c].sink[v] += more;
@@ -233,6 +223,16 @@ void TurbulenceOperator::add(const State& state, State::Balance& rates) const {
 void TurbulenceOperator::addRates(const State& state, State::Balance& rates) {
   evaluate(state);
   add(state, rates);
+}
+
+void TurbulenceOperator::addSlopes(const State& state, const Slopes& slopes) {
+  if (slopes.carried.empty()) return;
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < rates_.size(); ++c)
+    for (std::size_t v = first_; v < first_ + count_; ++v)
+      for (std::size_t w = first_; w < first_ + count_; ++w)
+        slopes.carried[(c * n + v) * n + w] +=
+            v == w ? -rates_[c].sink[v - first_] : slopes_[c][w - first_][v - first_];
 }
 
 // Of the owned cells, as evaluated.
@@ -256,59 +256,6 @@ void TurbulenceOperator::setDiffusivities(State& state) {
   for (std::size_t c = 0; c < rates_.size(); ++c) state.eddyViscosity[c] = state.density[c] * rates_[c].eddyViscosity;
 }
 
-TurbulenceOperator::WallState TurbulenceOperator::atWall(int face, const State& state) const {
-  const Mesh& m = context_.mesh;
-  const auto b = static_cast<std::size_t>(face - m.interiorFaces);
-  const auto cell = static_cast<std::size_t>(m.low[face]);
-  const double viscosity =
-      b < properties_.boundaryViscosity.size() ? properties_.boundaryViscosity[b] : properties_.viscosity[cell];
-  const double shear = viscosity * strainAtWall(face, state);
-  return {shear, std::sqrt(shear * state.density[cell]) * m.distance[face] / viscosity};
-}
-
-std::vector<Quantity> TurbulenceOperator::historyColumns() const {
-  return {{"y_plus_min", "1", "smallest y+ of the centres of cells beside walls; 0 without walls"},
-          {"y_plus_mean", "1", "mean of y+ over the walls"},
-          {"y_plus_max", "1", "largest y+"},
-          {"wall_shear", "Pa", "friction of the gas along the walls, mean over them"},
-          {"eddy_viscosity_ratio", "1", "largest eddy viscosity over that of the molecules"},
-          {"negative_turbulence", "1", "cells in which a variable of the turbulence model is below zero"}};
-}
-
-std::vector<double> TurbulenceOperator::historyValues(const State& state) {
-  const Mesh& m = context_.mesh;
-  velocityGradient_.setBoundary(state.velocity);
-  std::array<double, 3> extremes{-std::numeric_limits<double>::max(), 0.0, 0.0};  // -least y+, largest y+, ratio
-  std::array<double, 4> sums{};                                                   // area, y+, shear, cells
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (!isSticky(face) || m.area[face] <= 0.0) continue;
-    const WallState wall = atWall(face, state);
-    extremes[0] = std::max(extremes[0], -wall.yPlus);
-    extremes[1] = std::max(extremes[1], wall.yPlus);
-    sums[0] += m.area[face];
-    sums[1] += m.area[face] * wall.yPlus;
-    sums[2] += m.area[face] * wall.shear;
-  }
-  const std::size_t n = state.scalars.size();
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    extremes[2] = std::max(extremes[2], state.eddyViscosity[c] / properties_.viscosity[c]);
-    for (std::size_t v = 0; v < count_; ++v)
-      if (state.carried[c * n + first_ + v] < 0.0) {
-        sums[3] += 1.0;
-        break;
-      }
-  }
-  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 4, MPI_DOUBLE, MPI_SUM, m.comm);
-  const bool hasWalls = sums[0] > 0.0;
-  return {hasWalls ? -extremes[0] : 0.0,
-          hasWalls ? sums[1] / sums[0] : 0.0,
-          extremes[1],
-          hasWalls ? sums[2] / sums[0] : 0.0,
-          extremes[2],
-          sums[3]};
-}
-
 void TurbulenceOperator::fields(const State& state, const FieldSink& sink) const {
   const std::size_t n = state.scalars.size();
   std::vector<double> column(cells_.size());
@@ -317,6 +264,10 @@ void TurbulenceOperator::fields(const State& state, const FieldSink& sink) const
     for (std::size_t c = 0; c < column.size(); ++c) column[c] = state.carried[c * n + first_ + v] / state.density[c];
     sink({scalar.name, scalar.unit, scalar.description}, column);
   }
+  if (!model_->knowsEnergy()) return;
+  for (std::size_t c = 0; c < column.size(); ++c)
+    column[c] = state.pressure[c] - 2.0 / 3.0 * state.carried[c * n + first_];
+  sink({"static_pressure", "Pa", "hydrodynamic pressure less 2/3 rho k, which the pressure of the flow holds"}, column);
 }
 
 }  // namespace lampblack::flow

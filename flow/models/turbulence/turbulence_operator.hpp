@@ -4,11 +4,14 @@
 // viscosity is part of the state.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "core/modules.hpp"
+#include "flow/boundaries/wall_law.hpp"
 #include "flow/discretisation/velocity_gradient.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
@@ -37,6 +40,8 @@ class TurbulenceOperator : public Operator {
   void advance(State& state, double time, double dt) override;
   void endSweep(State& state) override;
   void addRates(const State& state, State::Balance& rates) override;
+  // Of the state that addRates() was asked of last: those of rates by other variables, and sinks.
+  void addSlopes(const State& state, const Slopes& slopes) override;
   [[nodiscard]] bool actsOnCarried() const override { return true; }
   // Both of them functions of the state alone: the diffusivities of the variables, and the eddy viscosity, all of it.
   // Fills the halo of the state first, which slopes need. Collective.
@@ -50,12 +55,17 @@ class TurbulenceOperator : public Operator {
   struct WallState {
     double shear = 0.0, yPlus = 0.0;
   };
+  // What the user should know of the cells beside walls, of the last row of the history; may be empty.
+  [[nodiscard]] std::string warning() const;
   [[nodiscard]] WallState atWall(int face, const State& state) const;
 
  private:
   void evaluate(const State& state);
   void linearise();
+  void findLayers();
+  void applyWallLaw(const State& state);
   void storeDiffusivities(State& state) const;
+  [[nodiscard]] std::array<double, 2> range() const;  // of y+, that the model is for
   void findShear();
   void addStrainGradient(const State& state);
   [[nodiscard]] bool isSticky(int face) const;
@@ -71,6 +81,16 @@ class TurbulenceOperator : public Operator {
   std::vector<BoundaryData> known_, knownDensity_, knownStrain_;
   std::vector<TurbulentCell> cells_, beside_;  // beside: one variable a little more
   std::vector<TurbulentRates> rates_, ratesBeside_;
+  using Slope = std::array<std::array<double, TurbulentCell::most>, TurbulentCell::most>;
+  std::vector<Slope> slopes_;  // of the rate of one variable by another; zeros on the diagonal, of which sinks tell
+  // Walls for whose layers the law of the wall stands, and of the owned cells beside them what it makes there, and
+  // area.
+  std::vector<int> layerFaces_;
+  std::vector<walllaw::Layer> layers_;
+  std::vector<double> layerArea_;
+  struct {
+    double leastYPlus = 0.0, mostYPlus = 0.0, outside = 0.0;  // outside: share of the walls' area
+  } told_;
   // Of the local cells and boundary faces: the variables per mass; 1/s.
   std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_,
       strainGradient_, strainSum_;

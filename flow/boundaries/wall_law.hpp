@@ -1,0 +1,68 @@
+// The law of the wall, by which a k-epsilon model meets walls without resolving the layers beside them (Launder and
+// Spalding 1974): of the centre of the cell beside a wall, with the friction velocity u* = C_mu^(1/4) k^(1/2) of the
+// turbulent energy there and y* = u* y/nu. Heat and species by the function of Jayatilleke (1969).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/modules.hpp"
+#include "flow/state.hpp"
+
+namespace lampblack::flow::walllaw {
+
+inline constexpr double cMu = 0.09, kappa = 0.41, smoothness = 9.8;
+// y* where the layer ruled by viscosity and the logarithmic one meet: the larger root of y* = ln(9.8 y*)/0.41.
+inline constexpr double meeting = 11.5301;
+
+// m/s, of m^2/s^2.
+[[nodiscard]] inline double frictionVelocity(double energy) {
+  return std::sqrt(std::sqrt(cMu) * std::max(energy, 0.0));
+}
+
+[[nodiscard]] inline bool isLogarithmic(double yStar) {
+  return yStar > meeting;
+}
+
+// The velocity over tau_w/(rho u*).
+[[nodiscard]] inline double velocity(double yStar) {
+  return isLogarithmic(yStar) ? std::log(smoothness * yStar) / kappa : yStar;
+}
+
+// By how much the viscous layer resists heat more than momentum, over Pr_t; `ratio`: Pr over Pr_t.
+[[nodiscard]] inline double sublayerResistance(double ratio) {
+  return 9.24 * (std::pow(ratio, 0.75) - 1.0) * (1.0 + 0.28 * std::exp(-0.007 * ratio));
+}
+
+// The same of heat or a species: its difference to the wall over flux/(rho u*) (of heat, over c_p); of Prandtl or
+// Schmidt numbers. The lesser of the two layers' resistances, which are two curves that cross beyond the minimum of
+// their difference.
+[[nodiscard]] inline double scalar(double yStar, double number, double turbulentNumber) {
+  const double viscous = number * yStar;
+  if (yStar < turbulentNumber / (kappa * number)) return viscous;
+  const double logarithmic =
+      turbulentNumber * (std::log(smoothness * yStar) / kappa + sublayerResistance(number / turbulentNumber));
+  return logarithmic > 0.0 ? std::min(viscous, logarithmic) : viscous;
+}
+
+// Pa s, rho u* y of a cell whose centre is at a distance from the wall (m), of a state that has the law's energy.
+[[nodiscard]] inline double exchange(const State& state, std::size_t cell, double distance) {
+  const double energy =
+      state.carried[cell * state.scalars.size() + static_cast<std::size_t>(state.wallEnergy)] / state.density[cell];
+  return state.density[cell] * frictionVelocity(energy) * distance;
+}
+
+// What the law makes of the cell: m^2/s^3, production and dissipation of k.
+struct Layer {
+  double production = 0.0, dissipation = 0.0;
+};
+// `velocity`: m/s, along the wall; `viscosity`: m^2/s, kinematic; `distance`: m.
+[[nodiscard]] inline Layer layer(double energy, double velocity, double viscosity, double distance) {
+  const double friction = frictionVelocity(energy), yStar = friction * distance / viscosity;
+  if (!isLogarithmic(yStar)) return {0.0, 2.0 * viscosity * energy / (distance * distance)};
+  const double shear = friction * velocity / walllaw::velocity(yStar);  // m^2/s^2, tau_w/rho
+  const double perLength = friction / (kappa * distance);
+  return {shear * perLength, friction * friction * perLength};
+}
+
+}  // namespace lampblack::flow::walllaw

@@ -1,0 +1,150 @@
+// Turbulence at walls: friction and y+, and where the law of the wall stands for the layers beside them its rates.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "flow/models/turbulence/turbulence_operator.hpp"
+
+namespace lampblack::flow {
+
+bool TurbulenceOperator::isSticky(int face) const {
+  const BoundaryCondition& boundary = context_.boundaryOf(face);
+  return boundary.kind == BoundaryKind::Wall && !boundary.slip;
+}
+
+// 1/s, one-sided: along the wall, of the gas beside it.
+double TurbulenceOperator::strainAtWall(int face, const State& state) const {
+  const Mesh& m = context_.mesh;
+  const int d = m.dimension;
+  Vector3 rise{};
+  for (int i = 0; i < d; ++i)
+    rise[i] = state.velocity[d * m.low[face] + i] - velocityGradient_.boundary()[d * (face - m.interiorFaces) + i];
+  const double across = dot(rise, m.normal[face]);
+  return std::sqrt(std::max(dot(rise, rise) - across * across, 0.0)) / m.distance[face];
+}
+
+// Cells beside walls for which the law of the wall stands.
+void TurbulenceOperator::findLayers() {
+  const Mesh& m = context_.mesh;
+  if (!model_->usesWallLaw()) return;
+  for (int face = m.interiorFaces; face < m.faces; ++face)
+    if (isSticky(face) && m.area[face] > 0.0) layerFaces_.push_back(face);
+  layers_.resize(cells_.size());
+  layerArea_.resize(cells_.size());
+  for (const int face : layerFaces_) layerArea_[static_cast<std::size_t>(m.low[face])] += m.area[face];
+}
+
+// In place of the model's rates in the cells beside walls. Of several walls each has its share by area. The dissipation
+// is held at the law's by a rate much faster than what else changes it, which leaves it that share wrong.
+void TurbulenceOperator::applyWallLaw(const State& state) {
+  constexpr std::size_t energy = 0, dissipation = 1;
+  constexpr double faster = 1e4;
+  const Mesh& m = context_.mesh;
+  std::ranges::fill(layers_, walllaw::Layer{});
+  for (const int face : layerFaces_) {
+    const auto c = static_cast<std::size_t>(m.low[face]);
+    const double share = m.area[face] / layerArea_[c];
+    const walllaw::Layer of = walllaw::layer(cells_[c].values[energy], strainAtWall(face, state) * m.distance[face],
+                                             cells_[c].viscosity, m.distance[face]);
+    layers_[c].production += share * of.production;
+    layers_[c].dissipation += share * of.dissipation;
+  }
+  for (std::size_t c = 0; c < rates_.size(); ++c) {
+    const double k = cells_[c].values[energy];
+    if (!(layerArea_[c] > 0.0) || !(k > 0.0)) continue;
+    const double lost = layers_[c].dissipation, rate = lost / k;
+    TurbulentRates& rates = rates_[c];
+    // The dissipation goes with k^(3/2), by its tangent.
+    rates.source[energy] = layers_[c].production + 0.5 * lost;
+    rates.sink[energy] = 1.5 * rate;
+    rates.add(energy, -2.0 / 3.0 * k * cells_[c].dilatation, k);
+    rates.source[dissipation] = faster * rate * lost;
+    rates.sink[dissipation] = faster * rate;
+    slopes_[c] = {};
+    slopes_[c][dissipation][energy] = 1.5 * faster * rate * rate;
+  }
+}
+
+TurbulenceOperator::WallState TurbulenceOperator::atWall(int face, const State& state) const {
+  const Mesh& m = context_.mesh;
+  const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+  const auto cell = static_cast<std::size_t>(m.low[face]);
+  const bool isKnown = b < properties_.boundaryViscosity.size();
+  const double viscosity = isKnown ? properties_.boundaryViscosity[b] : properties_.viscosity[cell];
+  const double effective = isKnown ? properties_.effectiveBoundaryViscosity()[b] : viscosity;
+  const double shear = effective * strainAtWall(face, state);
+  return {shear, std::sqrt(shear * state.density[cell]) * m.distance[face] / viscosity};
+}
+
+std::vector<Quantity> TurbulenceOperator::historyColumns() const {
+  return {{"y_plus_min", "1", "smallest y+ of the centres of cells beside walls; 0 without walls"},
+          {"y_plus_mean", "1", "mean of y+ over the walls"},
+          {"y_plus_max", "1", "largest y+"},
+          {"y_plus_outside", "1", "share of the walls' area with y+ out of what the model is for"},
+          {"wall_shear", "Pa", "friction of the gas along the walls, mean over them"},
+          {"eddy_viscosity_ratio", "1", "largest eddy viscosity over that of the molecules"},
+          {"negative_turbulence", "1", "cells in which a variable of the turbulence model is below zero"}};
+}
+
+std::vector<double> TurbulenceOperator::historyValues(const State& state) {
+  const Mesh& m = context_.mesh;
+  velocityGradient_.setBoundary(state.velocity);
+  std::array<double, 3> extremes{-std::numeric_limits<double>::max(), 0.0, 0.0};  // -least y+, largest y+, ratio
+  std::array<double, 5> sums{};  // area, y+, shear, cells, area out of the range
+  const auto [least, most] = range();
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (!isSticky(face) || m.area[face] <= 0.0) continue;
+    const WallState wall = atWall(face, state);
+    extremes[0] = std::max(extremes[0], -wall.yPlus);
+    extremes[1] = std::max(extremes[1], wall.yPlus);
+    sums[0] += m.area[face];
+    sums[1] += m.area[face] * wall.yPlus;
+    sums[2] += m.area[face] * wall.shear;
+    if (wall.yPlus < least || wall.yPlus > most) sums[4] += m.area[face];
+  }
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    extremes[2] = std::max(extremes[2], state.eddyViscosity[c] / properties_.viscosity[c]);
+    for (std::size_t v = 0; v < count_; ++v)
+      if (state.carried[c * n + first_ + v] < 0.0) {
+        sums[3] += 1.0;
+        break;
+      }
+  }
+  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 5, MPI_DOUBLE, MPI_SUM, m.comm);
+  const bool hasWalls = sums[0] > 0.0;
+  told_ = {hasWalls ? -extremes[0] : 0.0, extremes[1], hasWalls ? sums[4] / sums[0] : 0.0};
+  return {told_.leastYPlus, hasWalls ? sums[1] / sums[0] : 0.0, told_.mostYPlus,
+          told_.outside,    hasWalls ? sums[2] / sums[0] : 0.0, extremes[2],
+          sums[3]};
+}
+
+std::array<double, 2> TurbulenceOperator::range() const {
+  if (model_->usesWallLaw()) return {30.0, 300.0};
+  return {0.0, 5.0};
+}
+
+std::string TurbulenceOperator::warning() const {
+  constexpr double smallest = 0.01;
+  if (!(told_.outside > smallest)) return {};
+  const auto [least, most] = range();
+  const std::string expected = model_->usesWallLaw()
+                                   ? fmt::format(
+                                         "the law of the wall, by which '{}' meets walls, holds from {:g} to {:g} and "
+                                         "below {:.1f} has no turbulence beside the wall",
+                                         model_->name(), least, most, walllaw::meeting)
+                                   : fmt::format(
+                                         "'{}', which resolves the layer beside walls, needs less than {:g} and better "
+                                         "1",
+                                         model_->name(), most);
+  return fmt::format(
+      "y+ of the cells beside walls is {:.3g} to {:.3g}, and on {:.0f} % of the walls' area out of what "
+      "the turbulence model is for: {}",
+      told_.leastYPlus, told_.mostYPlus, 100.0 * told_.outside, expected);
+}
+
+}  // namespace lampblack::flow

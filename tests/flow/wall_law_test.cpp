@@ -1,0 +1,180 @@
+// The law of the wall: its layers, what it makes of a cell's turbulence, and friction and heat of a gas beside a wall.
+#include "flow/boundaries/wall_law.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+
+#include "flow/discretisation/velocity_gradient.hpp"
+#include "flow/models/turbulence/turbulence_operator.hpp"
+#include "flow/stepping/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_module.hpp"
+
+namespace lampblack::test {
+namespace {
+
+TEST(WallLaw, LayersMeetAndNumbersAreThoseOfTheFormulas) {
+  EXPECT_NEAR(walllaw::velocity(walllaw::meeting * (1.0 + 1e-9)) / walllaw::meeting, 1.0, 1e-5);
+  EXPECT_EQ(walllaw::velocity(8.0), 8.0);
+  // By a calculator: ln(980)/0.41; Jayatilleke's function of 0.71/0.9 and of 1000.
+  EXPECT_NEAR(walllaw::velocity(100.0), 16.798909, 1e-5);
+  EXPECT_NEAR(walllaw::sublayerResistance(0.71 / 0.9), -1.924682, 1e-5);
+  EXPECT_NEAR(walllaw::sublayerResistance(1000.0) / (9.24 * 176.8279), 1.0 + 0.28 * std::exp(-7.0), 1e-5);
+  EXPECT_EQ(walllaw::sublayerResistance(1.0), 0.0);
+  // Like momentum where the numbers are the same and one; by molecules close to the wall.
+  EXPECT_NEAR(walllaw::scalar(100.0, 0.9, 0.9) / (0.9 * walllaw::velocity(100.0)), 1.0, 1e-12);
+  EXPECT_NEAR(walllaw::scalar(100.0, 0.71, 0.9), 0.9 * (16.798909 - 1.924682), 1e-5);
+  for (const double number : {0.1, 0.71, 7.0, 1e4})
+    for (const double yStar : {1e-9, 1e-3, 0.1}) EXPECT_EQ(walllaw::scalar(yStar, number, 0.9), number * yStar);
+  // Never more than either layer alone, and rising.
+  double last = 0.0;
+  for (double yStar = 0.01; yStar < 1e3; yStar *= 1.03) {
+    const double now = walllaw::scalar(yStar, 0.71, 0.9);
+    EXPECT_GT(now, last);
+    EXPECT_LT(now, 1.08 * last + 0.01);
+    last = now;
+  }
+}
+
+// In the logarithmic layer at k = u^2/C_mu^(1/2) production is dissipation, u^3/(kappa y), and friction rho u^2.
+TEST(WallLaw, ALogarithmicLayerIsInBalance) {
+  const double u = 0.7, nu = 1.5e-5, y = 60.0 * nu / u, speed = u * std::log(9.8 * 60.0) / 0.41;
+  const walllaw::Layer layer = walllaw::layer(u * u / 0.3, speed, nu, y);
+  EXPECT_NEAR(layer.dissipation / (u * u * u / (0.41 * y)), 1.0, 1e-12);
+  EXPECT_NEAR(layer.production / layer.dissipation, 1.0, 1e-12);
+  EXPECT_NEAR(walllaw::layer(u * u / 0.3, 2.0 * speed, nu, y).production / layer.production, 2.0, 1e-12);
+  const walllaw::Layer thin = walllaw::layer(1e-3, speed, nu, 1e-4);
+  EXPECT_EQ(thin.production, 0.0);
+  EXPECT_NEAR(thin.dissipation / (2.0 * nu * 1e-3 / 1e-8), 1.0, 1e-12);
+  EXPECT_EQ(walllaw::layer(0.0, speed, nu, y).dissipation, 0.0);
+}
+
+// Warm gas that slides along a wall with a corner.
+struct Corner {
+  static std::vector<Side> sides(Gas& gas) {
+    std::vector<Side> all{side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Symmetry, 0, true),
+                          side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Symmetry, 1, true)};
+    for (Side& of : all) {
+      of.condition.slip = false;
+      of.condition.isothermal = of.condition.kind == BoundaryKind::Wall;
+      of.condition.temperature = 300.0;
+      of.condition.Y = gas.massFractions("O2: 0.21, N2: 0.79");
+    }
+    return all;
+  }
+  Gas& gas = Gas::hydrogen();
+  double k = 0.5, u = 3.0, v = 1.0;
+  Box box{Geometry::Planar, {uniformAxis(0.03, 3), uniformAxis(0.02, 2)}, sides(gas)};
+  std::shared_ptr<const TurbulenceModel> model = turbulenceModel("k_epsilon");
+  State state = box.stateWith({{"dust", {{.name = "dust", .unit = "1", .description = ""}}},
+                               TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+                              [&](const Vector3&) {
+                                return Box::Local{{u, v}, 320.0, gas.massFractions("O2: 0.21, N2: 0.79")};
+                              });
+  GasProperties properties;
+
+  explicit Corner(double energy) : k(energy) {
+    for (int c = 0; c < box.mesh.cells; ++c) {
+      state.carried[at(3 * c + 1)] = state.density[at(c)] * k;
+      state.carried[at(3 * c + 2)] = state.density[at(c)] * 20.0;
+      state.carriedDiffusivity[at(3 * c)] = 3e-8;
+    }
+    box.context.eddies = {0.85, 0.7};
+    properties.update(box.context, state);
+  }
+};
+
+TEST(WallLaw, FrictionAndHeatOfAGasAreThoseOfTheLaw) {
+  for (const double k : {0.5, 1e-5}) {
+    SCOPED_TRACE(k);
+    Corner corner(k);
+    const Mesh& m = corner.box.mesh;
+    const bool isLogarithmic = k > 0.1;
+    for (int face = m.interiorFaces; face < m.faces; ++face) {
+      if (corner.box.context.boundaryOf(face).kind != BoundaryKind::Wall) continue;
+      const auto b = at(face - m.interiorFaces), c = at(m.low[face]);
+      const double viscosity = corner.properties.boundaryViscosity[b], rho = corner.state.density[c];
+      const double conductivity = corner.properties.boundaryConductivity[b], cp = corner.properties.heatCapacity[c];
+      const double uStar = std::pow(0.09, 0.25) * std::sqrt(k), yStar = rho * uStar * m.distance[face] / viscosity;
+      EXPECT_EQ(yStar > 11.6, isLogarithmic);
+      const double friction = corner.properties.effectiveBoundaryViscosity()[b] / m.distance[face];  // of 1 m/s
+      const double heat = corner.properties.effectiveBoundaryConductivity()[b] / m.distance[face];   // of 1 K
+      if (!isLogarithmic) {
+        EXPECT_NEAR(friction / (viscosity / m.distance[face]), 1.0, 1e-12);
+        EXPECT_NEAR(heat / (conductivity / m.distance[face]), 1.0, 1e-12);
+        continue;
+      }
+      const double uPlus = std::log(9.8 * yStar) / 0.41, prandtl = viscosity * cp / conductivity,
+                   ratio = prandtl / 0.85;
+      const double more = 9.24 * (std::pow(ratio, 0.75) - 1.0) * (1.0 + 0.28 * std::exp(-0.007 * ratio));
+      EXPECT_NEAR(friction / (rho * uStar / uPlus), 1.0, 1e-10);
+      EXPECT_NEAR(heat / (rho * cp * uStar / (0.85 * (uPlus + more))), 1.0, 1e-10);
+    }
+  }
+}
+
+TEST(WallLaw, CellsBesideWallsHaveItsRatesAndACornerThoseOfBothWalls) {
+  Corner corner(0.5);
+  const Mesh& m = corner.box.mesh;
+  TurbulenceOperator turbulence(corner.box.context, corner.state, corner.model, corner.properties);
+  State::Balance rates = corner.state.balance;
+  turbulence.addRates(corner.state, rates);
+  VelocityGradient gradient(corner.box.context);
+  gradient.setBoundary(corner.state.velocity);
+  gradient.compute(corner.state.velocity);
+  for (int c = 0; c < m.owned; ++c) {
+    const bool isLeft = m.centre[at(c)][0] < 0.01, isLow = m.centre[at(c)][1] < 0.01;
+    const double rho = corner.state.density[at(c)], nu = corner.properties.viscosity[at(c)] / rho;
+    // Half a cell of 1 cm from each.
+    const walllaw::Layer left = walllaw::layer(0.5, corner.v, nu, 0.005),
+                         low = walllaw::layer(0.5, corner.u, nu, 0.005);
+    const double net = rates.carried[at(3 * c + 1)] / rho - rates.carriedSink[at(3 * c + 1)] * 0.5;
+    const double held = rates.carried[at(3 * c + 2)] / rho / rates.carriedSink[at(3 * c + 2)];
+    if (!isLeft && !isLow) {
+      EXPECT_LT(rates.carriedSink[at(3 * c + 2)], 1e3 * 20.0 / 0.5);  // the model's own
+      continue;
+    }
+    double produced = 0.0;
+    if (isLeft) produced += left.production * (isLow ? 0.5 : 1.0);
+    if (isLow) produced += low.production * (isLeft ? 0.5 : 1.0);
+    const double expands = gradient.dilatation(c, corner.state.velocity);
+    EXPECT_NEAR(net, produced - low.dissipation - 2.0 / 3.0 * 0.5 * expands, 1e-9 * low.dissipation);
+    EXPECT_NEAR(held / low.dissipation, 1.0, 1e-9);
+    EXPECT_GT(rates.carriedSink[at(3 * c + 2)], 1e3 * low.dissipation / 0.5);
+  }
+}
+
+// y+ and friction that are told; walls do not hold k and epsilon.
+TEST(WallLaw, TellsFrictionAndWhatIsOutOfItsRange) {
+  for (const double k : {0.5, 1e-5}) {
+    Corner corner(k);
+    const Mesh& m = corner.box.mesh;
+    TurbulenceOperator turbulence(corner.box.context, corner.state, corner.model, corner.properties);
+    const auto columns = turbulence.historyColumns();
+    const auto values = turbulence.historyValues(corner.state);
+    const auto value = [&](const char* name) {
+      for (std::size_t i = 0; i < columns.size(); ++i)
+        if (columns[i].name == name) return values[i];
+      return -1.0;
+    };
+    double shear = 0.0, area = 0.0;
+    for (int face = m.interiorFaces; face < m.faces; ++face) {
+      if (corner.box.context.boundaryOf(face).kind != BoundaryKind::Wall) continue;
+      EXPECT_FALSE(corner.state.scalars[1].boundaries[at(m.patch[at(face - m.interiorFaces)])].isHeld);
+      const double speed = std::abs(m.normal[face][0]) > 0.5 ? corner.v : corner.u;
+      shear += m.area[face] * speed * corner.properties.effectiveBoundaryViscosity()[at(face - m.interiorFaces)] /
+               m.distance[face];
+      area += m.area[face];
+    }
+    std::array<double, 2> sums{shear, area};
+    MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_NEAR(value("wall_shear") / (sums[0] / sums[1]), 1.0, 1e-10);
+    EXPECT_EQ(value("y_plus_outside") > 0.5, k < 0.1);
+    EXPECT_EQ(turbulence.warning().empty(), k > 0.1);
+  }
+}
+
+}  // namespace
+}  // namespace lampblack::test
