@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "flow/discretisation/velocity_gradient.hpp"
+#include "flow/equations/flow_residual.hpp"
 #include "flow/models/turbulence/turbulence_operator.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
@@ -59,6 +60,7 @@ struct Corner {
     for (Side& of : all) {
       of.condition.slip = false;
       of.condition.isothermal = of.condition.kind == BoundaryKind::Wall;
+      of.condition.takesParticles = of.condition.kind == BoundaryKind::Wall;
       of.condition.temperature = 300.0;
       of.condition.Y = gas.massFractions("O2: 0.21, N2: 0.79");
     }
@@ -68,11 +70,12 @@ struct Corner {
   double k = 0.5, u = 3.0, v = 1.0;
   Box box{Geometry::Planar, {uniformAxis(0.03, 3), uniformAxis(0.02, 2)}, sides(gas)};
   std::shared_ptr<const TurbulenceModel> model = turbulenceModel("k_epsilon");
-  State state = box.stateWith({{"dust", {{.name = "dust", .unit = "1", .description = ""}}},
-                               TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
-                              [&](const Vector3&) {
-                                return Box::Local{{u, v}, 320.0, gas.massFractions("O2: 0.21, N2: 0.79")};
-                              });
+  State state =
+      box.stateWith({takenByWalls({"dust", {{.name = "dust", .unit = "1", .description = ""}}}, box.context.boundaries),
+                     TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+                    [&](const Vector3&) {
+                      return Box::Local{{u, v}, 320.0, gas.massFractions("O2: 0.21, N2: 0.79")};
+                    });
   GasProperties properties;
 
   explicit Corner(double energy) : k(energy) {
@@ -111,6 +114,60 @@ TEST(WallLaw, FrictionAndHeatOfAGasAreThoseOfTheLaw) {
       const double more = 9.24 * (std::pow(ratio, 0.75) - 1.0) * (1.0 + 0.28 * std::exp(-0.007 * ratio));
       EXPECT_NEAR(friction / (rho * uStar / uPlus), 1.0, 1e-10);
       EXPECT_NEAR(heat / (rho * cp * uStar / (0.85 * (uPlus + more))), 1.0, 1e-10);
+    }
+  }
+}
+
+// Dust that walls take, by its Schmidt number: the lesser of both layers' resistances.
+TEST(WallLaw, WallsTakeDustByItsSchmidtNumber) {
+  for (const double k : {0.5, 1e-5}) {
+    SCOPED_TRACE(k);
+    Corner corner(k);
+    const Mesh& m = corner.box.mesh;
+    for (int c = 0; c < m.cells; ++c) corner.state.carried[at(3 * c)] = 2.0 * corner.state.density[at(c)];
+    FlowResidual residual(corner.box.context, corner.state, VelocityScheme::Limited, {});
+    residual.evaluate(corner.state);
+    std::vector<double> conductance(at(m.faces) * 3), flux(conductance.size());
+    residual.carried().diffusiveFlux(corner.state, residual.faces(), residual.properties(), conductance, flux);
+    for (int face = m.interiorFaces; face < m.faces; ++face) {
+      if (corner.box.context.boundaryOf(face).kind != BoundaryKind::Wall) continue;
+      const auto b = at(face - m.interiorFaces), c = at(m.low[face]);
+      const double rho = corner.state.density[c], viscosity = residual.properties().boundaryViscosity[b];
+      const double uStar = std::pow(0.09, 0.25) * std::sqrt(k), yStar = rho * uStar * m.distance[face] / viscosity;
+      const double ratio = viscosity / (rho * 3e-8) / 0.7;
+      const double plus =
+          std::log(9.8 * yStar) / 0.41 + 9.24 * (std::pow(ratio, 0.75) - 1.0) * (1.0 + 0.28 * std::exp(-0.007 * ratio));
+      const double taken = rho * uStar / (0.7 * std::min(plus, ratio * yStar));
+      EXPECT_NEAR(conductance[at(face) * 3] / (m.area[face] * taken), 1.0, 1e-9);
+      EXPECT_NEAR(flux[at(face) * 3] / (2.0 * m.area[face] * taken), 1.0, 1e-9);
+      EXPECT_EQ(flux[at(face) * 3 + 1], 0.0);
+    }
+  }
+}
+
+// Friction, y+ and heat of each face of a wall: of gas at 320 K along one at 300 K.
+TEST(WallLaw, WallsTellEachFace) {
+  Corner corner(0.5);
+  const Mesh& m = corner.box.mesh;
+  TransportOperator transport(corner.box.context, corner.state);
+  transport.adopt(corner.state);
+  const double rho = corner.state.density[0], uStar = std::pow(0.09, 0.25) * std::sqrt(0.5);
+  for (int wall = 0; wall < 3; wall += 2) {
+    const std::vector<WallFace> faces = transport.wallFaces(corner.state, wall);
+    EXPECT_EQ(faces.size(), m.rank > 0 ? 0U : wall == 0 ? 2U : 3U);
+    const GasProperties& of = transport.properties();
+    for (const WallFace& face : faces) {
+      const auto along = at(wall == 0 ? 1 : 0);
+      const double speed = wall == 0 ? corner.v : corner.u;
+      EXPECT_NEAR(face.place[1 - along], 0.0, 1e-12);
+      EXPECT_NEAR(face.area, 0.01, 1e-12);
+      EXPECT_GT(face.friction[along], 0.0);
+      EXPECT_NEAR(face.friction[1 - along], 0.0, 1e-9);
+      // Half a centimetre from it. y+ by the friction, y* by k.
+      const double yStar = face.yPlus * rho * uStar / std::sqrt(rho * face.friction[along]);
+      EXPECT_NEAR(face.friction[along] / (rho * uStar * speed / walllaw::velocity(yStar)), 1.0, 1e-3);
+      EXPECT_NEAR(face.heatFlux / (-20.0 * rho * uStar * of.heatCapacity[0] / walllaw::scalar(yStar, 0.715, 0.85)), 1.0,
+                  0.03);
     }
   }
 }
