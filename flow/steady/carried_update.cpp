@@ -13,15 +13,31 @@ constexpr double carriedReduction = 0.01;  // of the linear system's residual
 constexpr int mostCarriedIterations = 60;
 // What an iteration leaves of an amount at least and at most; and at most, of the largest amount anywhere, beside that.
 constexpr double leastLeft = 0.1, mostLeft = 10.0, mostBeside = 1e-4;
+// Of its change a cell takes half, and half of that, until what it leaves of the cell's equations is less than there
+// was by so much of the share; but so many times at most.
+constexpr double leastGain = 0.1;
+constexpr int mostHalvings = 6;
+// Amounts, of the largest anywhere, below which what is left of an equation does not count more.
+constexpr double leastCounted = 1e-8;
+
+// Per m3 and s, of one value.
+double rateOf(const State::Balance& made, const State& state, std::size_t i) {
+  return made.carried[i] - made.carriedSink[i] * state.carried[i];
+}
 
 }  // namespace
 
-CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, const std::vector<Operator*>& operators)
+CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, const FlowResidual& residual,
+                             const std::vector<Operator*>& operators)
     : context_(context), n_(state.scalars.size()), system_(context.mesh, context.halo, n_), scales_(n_) {
   std::ranges::copy_if(operators, std::back_inserter(operators_), &Operator::actsOnCarried);
   slopes_.resize(static_cast<std::size_t>(context.mesh.owned) * n_ * n_);
   right_.resize(static_cast<std::size_t>(context.mesh.owned) * n_);
   change_.resize(static_cast<std::size_t>(context.mesh.cells) * n_);
+  start_.resize(right_.size());
+  startRates_.resize(right_.size());
+  shares_.resize(static_cast<std::size_t>(context.mesh.owned));
+  made_ = residual.rates().made;
   conductance_.resize(static_cast<std::size_t>(context.mesh.faces) * n_);
   flux_.resize(conductance_.size());
 }
@@ -70,11 +86,59 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
 void CarriedUpdate::take(State& state, int cell) const {
   const auto c = static_cast<std::size_t>(cell);
   for (std::size_t s = 0; s < n_; ++s) {
-    double& amount = state.carried[c * n_ + s];
-    const double present = amount / state.density[c], change = scales_[s] * change_[c * n_ + s];
+    const double present = start_[c * n_ + s], change = shares_[c] * scales_[s] * change_[c * n_ + s];
     const double least = leastLeft * std::max(present, 0.0);
     const double most = mostLeft * std::max(present, 0.0) + mostBeside * scales_[s];
-    amount = state.density[c] * std::clamp(present + change, least, most);
+    state.carried[c * n_ + s] = state.density[c] * std::clamp(present + change, least, most);
+  }
+}
+
+// 1/s, of the amounts: what the cell's equations have left after a share of its change (none: before it), its
+// neighbours having changed by as much.
+double CarriedUpdate::leftOf(const State& state, int cell, double share) const {
+  const auto c = static_cast<std::size_t>(cell);
+  const double V = context_.mesh.volume[c], mass = V * state.density[c];
+  double sum = 0.0;
+  for (std::size_t s = 0; s < n_; ++s) {
+    if (!state.scalars[s].isTransported) continue;
+    const std::size_t i = c * n_ + s;
+    double left = (1.0 - share) * right_[i];
+    if (share > 0.0) {
+      double expected = 0.0;
+      for (std::size_t by = 0; by < n_; ++by)
+        expected += slopes_[(c * n_ + by) * n_ + s] * scales_[by] * change_[c * n_ + by];
+      left += (V * (rateOf(made_, state, i) - startRates_[i]) - share * mass * expected) / scales_[s];
+    }
+    left /= mass * (std::abs(start_[i]) / scales_[s] + leastCounted);
+    sum += left * left;
+  }
+  return std::sqrt(sum);
+}
+
+void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
+  const auto owned = static_cast<std::size_t>(context_.mesh.owned);
+  std::vector<double> before(owned);
+  for (std::size_t c = 0; c < owned; ++c) {
+    for (std::size_t i = c * n_; i < (c + 1) * n_; ++i) {
+      start_[i] = state.carried[i] / state.density[c];
+      startRates_[i] = rateOf(residual.rates().made, state, i);
+    }
+    before[c] = leftOf(state, static_cast<int>(c), 0.0);
+  }
+  std::ranges::fill(shares_, 1.0);
+  std::int64_t less = 1;
+  for (int halvings = 0; less > 0; ++halvings) {
+    for (int c = 0; c < context_.mesh.owned; ++c) take(state, c);
+    if (halvings == mostHalvings) break;
+    made_.clear();
+    for (Operator* op : operators_) op->addRates(state, made_);
+    less = 0;
+    for (std::size_t c = 0; c < owned; ++c)
+      if (!(leftOf(state, static_cast<int>(c), shares_[c]) <= (1.0 - leastGain * shares_[c]) * before[c])) {
+        shares_[c] *= 0.5;
+        ++less;
+      }
+    MPI_Allreduce(MPI_IN_PLACE, &less, 1, MPI_INT64_T, MPI_SUM, context_.mesh.comm);
   }
 }
 
@@ -82,7 +146,7 @@ int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span
   findScales(state);
   assemble(state, residual, inertia);
   const BlockSystem::Result result = system_.solve(right_, change_, carriedReduction, mostCarriedIterations);
-  for (int c = 0; c < context_.mesh.owned; ++c) take(state, c);
+  takeShares(state, residual);
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
   return result.iterations;

@@ -19,7 +19,8 @@ namespace lampblack::flow {
 class CarriedUpdate {
  public:
   // Collective. The state carries something.
-  CarriedUpdate(const FlowContext& context, const State& state, const std::vector<Operator*>& operators);
+  CarriedUpdate(const FlowContext& context, const State& state, const FlowResidual& residual,
+                const std::vector<Operator*>& operators);
 
   // Collective. The residual is of the state, what is carried at least; `inertia` (kg/s, owned cells): mass over the
   // cell's pseudo-time. The halo is filled then, and what the operators tell transport of their scalars is that of the
@@ -29,7 +30,9 @@ class CarriedUpdate {
  private:
   void findScales(const State& state);
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
+  void takeShares(State& state, const FlowResidual& residual);
   void take(State& state, int cell) const;
+  [[nodiscard]] double leftOf(const State& state, int cell, double share) const;
 
   const FlowContext& context_;
   std::vector<Operator*> operators_;
@@ -38,6 +41,10 @@ class CarriedUpdate {
   std::vector<double> scales_;  // largest amount per kg of gas, of each scalar: the unit of the linear system
   std::vector<double> slopes_;  // Operator::Slopes::carried
   std::vector<double> right_, change_, conductance_, flux_;
+  // Owned cells: amounts per kg and their rates (per m3 and s) that the change begins with; the share of it that is
+  // taken.
+  std::vector<double> start_, startRates_, shares_;
+  State::Balance made_;  // by the operators, in the state that is tried
 };
 
 }  // namespace lampblack::flow

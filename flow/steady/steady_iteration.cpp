@@ -47,7 +47,7 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       inertia_(static_cast<std::size_t>(context.mesh.owned)),
       carriedInertia_(inertia_.size()),
       haste_(inertia_.size(), 1.0) {
-  if (!state.scalars.empty()) carried_.emplace(context, state, operators_);
+  if (!state.scalars.empty()) carried_.emplace(context, state, residual_, operators_);
   residual_.evaluate(state);
   measure_ = measure(state);
 }
