@@ -11,6 +11,7 @@
 #include "particles/ensemble/stochastic_process.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
+#include "particles/population/monte_carlo/weighted_particle.hpp"
 #include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::particles {

@@ -2,7 +2,7 @@
 // in the largest bin of size, over the square of the mean, in five cases; and what sections cost and err by.
 //
 //   population_pairs_bench [start of a case's name [numbers of particles, with commas [repeats of 500 particles
-//                          [a method]]]]
+//                          [a method [a probability of pairs]]]]]
 //
 // Times are of one core, CPU seconds, with what a repeat starts from. The largest bin holds what is above the volume
 // beyond which the reference, 300 sections, has one thousandth of the number.
@@ -92,7 +92,8 @@ std::vector<double> edgesOf(const Case& c) {
   return edges;
 }
 
-void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsOf500, const std::string& onlyMethod) {
+void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsOf500, const std::string& onlyMethod,
+         double probability) {
   const std::vector<double> edges = edgesOf(c);
   double large = edges[edges.size() / 2];
   fmt::print("{}\n", c.name);
@@ -142,6 +143,7 @@ void run(const Case& c, const std::vector<std::size_t>& numbers, double repeatsO
         MonteCarloOptions options;
         options.method = method;
         options.particles = n;
+        options.pairProbability = probability;
         options.repeat = repeat;
         options.expectedNumber = c.initial.number > 0 ? 0 : c.expectedNumber;
         const double from = bench::processorSeconds();
@@ -177,6 +179,8 @@ int main(int argc, char** argv) {
   std::stringstream list(argc > 2 ? argv[2] : "100,500,2000");
   for (std::string item; std::getline(list, item, ',');) numbers.push_back(std::stoul(item));
   for (const Case& c : cases())
-    if (c.name.starts_with(only)) run(c, numbers, argc > 3 ? std::stod(argv[3]) : 200, argc > 4 ? argv[4] : "");
+    if (c.name.starts_with(only))
+      run(c, numbers, argc > 3 ? std::stod(argv[3]) : 200, argc > 4 ? argv[4] : "",
+          argc > 5 ? std::stod(argv[5]) : MonteCarloOptions{}.pairProbability);
   return 0;
 }

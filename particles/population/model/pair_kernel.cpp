@@ -1,5 +1,7 @@
 #include "particles/population/model/pair_kernel.hpp"
 
+#include <algorithm>
+
 namespace lampblack::particles {
 
 PairKernel::PairKernel(const CollisionKernelOptions& options) : kernel_(options) {
@@ -20,6 +22,8 @@ PairKernel::PairKernel(const CollisionKernelOptions& options) : kernel_(options)
     case CollisionKernelType::continuum:
     case CollisionKernelType::transition:
       continuum_ = options.efficiency * continuumPrefactor(gas.temperature, gas.viscosity);
+      twicePath_ = options.slip == SlipLaw::davies ? 2 * meanFreePath(gas) : 4.74e-5 * gas.temperature / gas.pressure;
+      slow_ = options.slip == SlipLaw::davies ? 0.4 : 0;
       [[fallthrough]];
     case CollisionKernelType::freeMolecular:
       freeMolecular_ = options.efficiency * freeMolecularPrefactor(gas.temperature, options.enhancement);
@@ -27,6 +31,26 @@ PairKernel::PairKernel(const CollisionKernelOptions& options) : kernel_(options)
     case CollisionKernelType::transitionFuchs:
     case CollisionKernelType::gravitational:
       return;
+  }
+}
+
+void PairKernel::terms(const double* volume, const double* mass, const double* diameter, std::size_t n,
+                       Terms* all) const {
+  if (kernel_.options().type != CollisionKernelType::transition) {
+    for (std::size_t k = 0; k < n; ++k) all[k] = terms({volume[k], mass[k], diameter[k]});
+    return;
+  }
+  // Columns first: the loop is compiled to vector instructions.
+  constexpr std::size_t block = 128;
+  float mobilities[block], inverses[block];
+  for (std::size_t first = 0; first < n; first += block) {
+    const std::size_t count = std::min(block, n - first);
+    for (std::size_t k = 0; k < count; ++k) {
+      mobilities[k] = mobility(diameter[first + k]);
+      inverses[k] = inverseMass(mass[first + k]);
+    }
+    for (std::size_t k = 0; k < count; ++k)
+      all[first + k] = {static_cast<float>(diameter[first + k]), mobilities[k], inverses[k]};
   }
 }
 

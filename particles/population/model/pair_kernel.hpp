@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include "core/modules.hpp"
+#include "numerics/vector_math.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 
 namespace lampblack::particles {
@@ -22,6 +24,9 @@ class PairKernel {
 
   [[nodiscard]] const CollisionKernel& kernel() const { return kernel_; }
   [[nodiscard]] Terms terms(const CollisionKernel::Properties& particle) const;
+  // The same of n particles after one another: volumes (m3), masses (kg) and diameters (m), of which those count that
+  // the kernel asks for.
+  void terms(const double* volume, const double* mass, const double* diameter, std::size_t n, Terms* all) const;
   // Whether visit() has a form of this kernel: not of Fuchs interpolation, gravitational settling, and an efficiency
   // that depends on size. Such pairs are asked of kernel().
   [[nodiscard]] bool hasForm() const { return hasForm_; }
@@ -30,33 +35,36 @@ class PairKernel {
   void visit(F&& f) const;
 
  private:
+  [[nodiscard]] float mobility(double diameter) const {  // continuum prefactor times C/d
+    const double knudsen = twicePath_ / diameter;
+    const double slip = 1 + knudsen * (1.257 + slow_ * numerics::vectormath::expOne(-1.1 / knudsen));
+    return static_cast<float>(continuum_ * slip / diameter);
+  }
+  [[nodiscard]] float inverseMass(double mass) const {
+    return static_cast<float>(freeMolecular_ * freeMolecular_ / mass);
+  }
+
   CollisionKernel kernel_;
   bool hasForm_;
   double root_ = 0, freeMolecular_ = 0, continuum_ = 0;
+  double twicePath_ = 0;  // m, twice the mean free path, by the slip law
+  double slow_ = 0;       // of Davies' slip correction, zero without
 };
 
 inline PairKernel::Terms PairKernel::terms(const CollisionKernel::Properties& x) const {
-  const CollisionKernelOptions& options = kernel_.options();
   const double d = x.diameter;
-  const auto mobility = [&] {  // continuum prefactor times C/d
-    const double knudsen = options.slip == SlipLaw::davies
-                               ? 2 * meanFreePath(options.gas) / d
-                               : 4.74e-5 * options.gas.temperature / options.gas.pressure / d;
-    const double slip = options.slip == SlipLaw::davies ? slipCorrection(knudsen) : 1 + 1.257 * knudsen;
-    return static_cast<float>(continuum_ * slip / d);
-  };
-  switch (options.type) {
+  switch (kernel_.options().type) {
     case CollisionKernelType::additive:
     case CollisionKernelType::multiplicative:
       return {static_cast<float>(root_ * x.volume)};
     case CollisionKernelType::shear:
       return {static_cast<float>(root_ * d)};
     case CollisionKernelType::freeMolecular:
-      return {static_cast<float>(d), 0, static_cast<float>(freeMolecular_ * freeMolecular_ / x.mass)};
+      return {static_cast<float>(d), 0, inverseMass(x.mass)};
     case CollisionKernelType::continuum:
-      return {static_cast<float>(d), mobility()};
+      return {static_cast<float>(d), mobility(d)};
     case CollisionKernelType::transition:
-      return {static_cast<float>(d), mobility(), static_cast<float>(freeMolecular_ * freeMolecular_ / x.mass)};
+      return {static_cast<float>(d), mobility(d), inverseMass(x.mass)};
     default:
       return {};
   }

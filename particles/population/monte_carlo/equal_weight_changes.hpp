@@ -42,11 +42,11 @@ template <CoagulatingType Type, class Store>
 void EqualWeightMethod<Type, Store>::join(const std::vector<WeightedParticle<typename Type::Particle>>& coming,
                                           RandomStream& random) {
   double number = static_cast<double>(size()) * sample_.weight();
-  for (const auto& one : coming) number += one.number;
+  for (const auto& one : coming) number += one.weight;
   const double room = static_cast<double>(sample_.capacity());
   if (number > 2 * room * sample_.weight()) thin(number / room, random);
   const auto copies = systematicCopies(
-      coming.size(), [&](std::size_t k) { return coming[k].number / sample_.weight(); }, random);
+      coming.size(), [&](std::size_t k) { return coming[k].weight / sample_.weight(); }, random);
   for (std::size_t k = 0; k < coming.size(); ++k)
     if (copies[k] > 0) sample_.put(rates().entry(coming[k].particle), copies[k]);
   sample_.massChanged();

@@ -17,6 +17,7 @@
 #include "particles/population/monte_carlo/jump_process.hpp"
 #include "particles/population/monte_carlo/sample_statistics.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
+#include "particles/population/monte_carlo/weighted_particle.hpp"
 
 namespace lampblack::particles {
 
@@ -186,7 +187,7 @@ class EqualWeightMethod {
     retune();
     sample_.bringNumberIntoRange(random, counters_);
   }
-  // Takes in particles that stand for `number` (1/m3) real ones each: copies of the weight that all have, as many in
+  // Takes in particles of any weights: copies of the weight that all have, as many in
   // the mean. Where these were more than twice as many as there is room for, the sample shrinks first.
   void join(const std::vector<WeightedParticle<typename Type::Particle>>& coming, RandomStream& random);
   // What a population in a gas keeps besides its particles and counters so that it goes on as it would have: for how

@@ -15,6 +15,7 @@
 #include "particles/population/monte_carlo/pair_population.hpp"
 #include "particles/population/monte_carlo/pair_sampling.hpp"
 #include "particles/population/monte_carlo/systematic_sample.hpp"
+#include "particles/population/monte_carlo/weighted_particle.hpp"
 #include "particles/population/population_solver.hpp"
 
 namespace lampblack::particles {
@@ -23,10 +24,7 @@ template <ParticleType Type>
 class PairMethod {
  public:
   using Particle = typename Type::Particle;
-  struct Entry {
-    Particle particle;
-    double weight;  // 1/m3
-  };
+  using Entry = WeightedParticle<Particle>;
 
   PairMethod(const Type& type, const PopulationModel& model, const InitialPopulation& initial,
              const MonteCarloOptions& options, RandomStream& random)
@@ -56,13 +54,7 @@ class PairMethod {
   template <class F>
   void changeParticles(F f) {
     const std::size_t before = population_.size();
-    population_.remove([&](std::size_t k) {
-      Particle particle = population_.particle(k);
-      const double weight = population_.weight(k);
-      if (!f(particle, weight)) return true;
-      population_.set(k, particle, weight);
-      return false;
-    });
+    population_.change(f);
     counters_.vanished += before - population_.size();
     counters_.copies += merging_.halveUpTo(before, population_);
   }
@@ -77,14 +69,13 @@ class PairMethod {
     for (const Entry& entry : entries) population_.add(entry.particle, entry.weight);
     sampling_.remember({});
   }
-  // Takes in the part `chance` of particles that stand for `number` (1/m3) real ones each, with numbers that make up
-  // for the others.
-  void join(const std::vector<WeightedParticle<Particle>>& coming, double chance, RandomStream& random) {
+  // Takes in the part `chance` of these, with weights that make up for the others.
+  void join(const std::vector<Entry>& coming, double chance, RandomStream& random) {
     const auto copies = systematicCopies(
         coming.size(), [&](std::size_t) { return chance; }, random);
     for (std::size_t k = 0; k < coming.size(); ++k)
       for (std::size_t copy = 0; copy < copies[k]; ++copy)
-        population_.add(coming[k].particle, coming[k].number / chance);
+        population_.add(coming[k].particle, coming[k].weight / chance);
     mergeExcess();
   }
   // What the population goes on with besides its particles and counters.

@@ -1,5 +1,6 @@
 // Numerical particles of different weights in flat arrays, as the method that draws pairs keeps them: what a candidate
-// pair is judged by lies together in one row of 24 bytes, what only an event looks at in another array.
+// pair is judged by lies together in one row of 24 bytes, what only an event looks at in another array. The kernel's
+// terms of a row cost most: they are computed when they are asked for, of all rows that lack them at once.
 #pragma once
 
 #include <algorithm>
@@ -52,24 +53,32 @@ class PairPopulation {
   // Another kernel for the particles that there are.
   void setKernel(const CollisionKernelOptions& kernel) {
     kernel_.emplace(kernel);
-    for (std::size_t k = 0; k < rows_.size(); ++k) rows_[k] = rowOf(particles_[k], rows_[k].weight);
+    known_ = 0;
   }
+  // Gives all rows their terms.
+  void findTerms();
   void clear() {
     rows_.clear();
     particles_.clear();
+    known_ = 0;
   }
   void reserve(std::size_t count) {
     rows_.reserve(count);
     particles_.reserve(count);
   }
   void add(const Particle& particle, double weight) {
-    rows_.push_back(rowOf(particle, weight));
+    rows_.push_back({weight, {}, static_cast<float>(type_.volume(particle))});
     particles_.push_back(particle);
   }
   void set(std::size_t k, const Particle& particle, double weight) {
-    rows_[k] = rowOf(particle, weight);
+    rows_[k].weight = weight;
+    rows_[k].volume = static_cast<float>(type_.volume(particle));
+    if (kernel_ && k < known_) rows_[k].terms = kernel_->terms(kernelProperties(kernel_->kernel(), type_, particle));
     particles_[k] = particle;
   }
+  // All particles change: f(Particle&, weight) -> bool changes one of them, false drops it.
+  template <class F>
+  void change(F&& f);
   void setWeight(std::size_t k, double weight) { rows_[k].weight = weight; }
   void scaleWeights(double factor) {
     for (Row& row : rows_) row.weight *= factor;
@@ -78,8 +87,12 @@ class PairPopulation {
   template <class Gone>
   void remove(Gone&& gone) {
     std::size_t kept = 0;
+    const std::size_t known = known_;
     for (std::size_t k = 0; k < rows_.size(); ++k) {
-      if (gone(k)) continue;
+      if (gone(k)) {
+        if (k < known) --known_;
+        continue;
+      }
       if (kept != k) {
         rows_[kept] = rows_[k];
         particles_[kept] = std::move(particles_[k]);
@@ -101,16 +114,47 @@ class PairPopulation {
   }
 
  private:
-  [[nodiscard]] Row rowOf(const Particle& particle, double weight) const {
-    Row row{weight, {}, static_cast<float>(type_.volume(particle))};
-    if (kernel_) row.terms = kernel_->terms(kernelProperties(kernel_->kernel(), type_, particle));
-    return row;
-  }
-
   Type type_;
   std::optional<PairKernel> kernel_;
   std::vector<Row> rows_;
   std::vector<Particle> particles_;
+  std::size_t known_ = 0;  // so many of the first rows have their terms
 };
+
+template <ParticleType Type>
+void PairPopulation<Type>::findTerms() {
+  if (!kernel_) return;
+  constexpr std::size_t block = 128;
+  double volume[block], mass[block], diameter[block];
+  PairKernel::Terms terms[block];
+  for (; known_ < rows_.size();) {
+    const std::size_t n = std::min(block, rows_.size() - known_);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto one = kernelProperties(kernel_->kernel(), type_, particles_[known_ + k]);
+      volume[k] = one.volume;
+      mass[k] = one.mass;
+      diameter[k] = one.diameter;
+    }
+    kernel_->terms(volume, mass, diameter, n, terms);
+    for (std::size_t k = 0; k < n; ++k) rows_[known_ + k].terms = terms[k];
+    known_ += n;
+  }
+}
+
+template <ParticleType Type>
+template <class F>
+void PairPopulation<Type>::change(F&& f) {
+  known_ = 0;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < rows_.size(); ++k) {
+    if (!f(particles_[k], rows_[k].weight)) continue;
+    if (kept != k) particles_[kept] = std::move(particles_[k]);
+    rows_[kept].weight = rows_[k].weight;
+    rows_[kept].volume = static_cast<float>(type_.volume(particles_[kept]));
+    ++kept;
+  }
+  rows_.resize(kept);
+  particles_.erase(particles_.begin() + static_cast<std::ptrdiff_t>(kept), particles_.end());
+}
 
 }  // namespace lampblack::particles

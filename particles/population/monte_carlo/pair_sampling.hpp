@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +22,7 @@
 #include "core/modules.hpp"
 #include "core/random.hpp"
 #include "particles/population/monte_carlo/pair_population.hpp"
+#include "particles/population/monte_carlo/pair_rates.hpp"
 #include "particles/population/population_solver.hpp"
 
 namespace lampblack::particles {
@@ -38,7 +40,7 @@ class PairSampling {
   void advance(PairPopulation<Type>& population, double time, RandomStream& random, PopulationCounters& counters);
   // By how much coagulation lowers the number, and raises the second moment by half, in 1/s relative to them: over the
   // last events, or by a draw of pairs where there were none.
-  [[nodiscard]] double pace(const PairPopulation<Type>& population, RandomStream& random);
+  [[nodiscard]] double pace(PairPopulation<Type>& population, RandomStream& random);
   // What advance() goes on with: the pace of the fastest pair (1/s) and the highest weight (1/m3) at the last
   // candidates; a pace of zero: not known.
   [[nodiscard]] std::array<double, 2> memory() const { return {highest_, heaviest_}; }
@@ -65,6 +67,7 @@ class PairSampling {
   }
   static Particle times(const Type& type, Particle particle, std::uint64_t count);
 
+  static constexpr std::size_t together = pairsTogether;
   static constexpr double aim = 0.8;           // of the probability: what is still higher comes between two blocks
   static constexpr double largestShare = 0.7;  // what the highest rate falls to at most from one block to the next
   static constexpr std::size_t leastBlock = 32;
@@ -82,13 +85,9 @@ template <ParticleType Type>
 template <class F>
 void PairSampling<Type>::withRate(const PairPopulation<Type>& population, F&& f) {
   if (population.kernel().hasForm()) {
-    population.kernel().visit([&](const auto& rate) {
-      f([rows = population.rows(), rate](std::size_t i, std::size_t j) {
-        return static_cast<double>(rate(rows[i].terms, rows[j].terms));
-      });
-    });
+    population.kernel().visit([&](const auto& form) { f(PairRates{population.rows(), form}); });
   } else {
-    f([&population](std::size_t i, std::size_t j) { return population.rateOf(i, j); });
+    f(PairRatesAsked<Type>{population});
   }
 }
 
@@ -96,6 +95,7 @@ template <ParticleType Type>
 void PairSampling<Type>::advance(PairPopulation<Type>& population, double time, RandomStream& random,
                                  PopulationCounters& counters) {
   if (population.size() == 0 || !(time > 0)) return;
+  population.findTerms();
   double heaviest = 0;
   for (std::size_t k = 0; k < population.size(); ++k) heaviest = std::max(heaviest, population.weight(k));
   // Weights that others have raised since the last candidates.
@@ -123,22 +123,48 @@ void PairSampling<Type>::draw(const Rate& rate, PairPopulation<Type>& population
     const double scale = part * pairs / static_cast<double>(candidates);
     double highest = 0, watched = 0;
     std::uint64_t happened = 0;
-    for (std::uint64_t k = 0; k < candidates; ++k) {
-      // i and j by half a word each, of which n is too small a part for its bias (n / 2^32) to be seen.
-      const std::uint64_t word = random.bits();
-      const auto i = static_cast<std::uint32_t>(((word >> 32U) * n) >> 32U);
-      const auto j = static_cast<std::uint32_t>(((word & 0xffffffffU) * n) >> 32U);
-      const double p = rate(i, j) * std::max(rows[i].weight, rows[j].weight) * (i == j ? 2 * scale : scale);
-      if (p > watched) [[unlikely]] {
-        const double counted = p * shareOf(rows[i], rows[j]);
-        highest = std::max(highest, counted);
-        watched = std::min(highest, probability_);
-        if (counted > probability_ * (1 + roundOff)) ++counters.limited;
+    const auto chance = [&](double kernel, std::uint32_t i, std::uint32_t j) {
+      return kernel * std::max(rows[i].weight, rows[j].weight) * (i == j ? 2 * scale : scale);
+    };
+    std::array<std::uint64_t, 2 * together> words{};
+    PlacesOfPairs i, j;
+    std::array<double, together> u, p;
+    for (std::uint64_t k = 0; k < candidates; k += together) {
+      const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(together, candidates - k));
+      for (std::size_t w = 0; w < 2 * count; ++w) words[w] = random.bits();
+      for (std::size_t c = 0; c < together; ++c) {
+        // i and j by half a word each, of which n is too small a part for its bias (n / 2^32) to be seen.
+        const std::uint64_t word = words[2 * c];
+        i[c] = static_cast<std::uint32_t>(((word >> 32U) * n) >> 32U);
+        j[c] = static_cast<std::uint32_t>(((word & 0xffffffffU) * n) >> 32U);
+        u[c] = openUnitInterval(words[2 * c + 1]);
       }
-      const double u = random.uniform();
-      if (u >= p) continue;
-      ++happened;
-      happen(population, i, j, p, u, counters);
+      rate(i, j, p);
+      std::uint32_t marked = 0;  // those that happen or are watched, a bit each
+      for (std::size_t c = 0; c < together; ++c) {
+        p[c] = chance(p[c], i[c], j[c]);
+        marked |= static_cast<std::uint32_t>(p[c] > std::min(watched, u[c])) << c;
+      }
+      marked &= (1U << count) - 1U;
+      while (marked != 0) {
+        const auto c = static_cast<std::size_t>(std::countr_zero(marked));
+        marked &= marked - 1U;
+        if (p[c] > watched) {
+          const double counted = p[c] * shareOf(rows[i[c]], rows[j[c]]);
+          highest = std::max(highest, counted);
+          watched = std::min(highest, probability_);
+          if (counted > probability_ * (1 + roundOff)) ++counters.limited;
+        }
+        if (u[c] >= p[c]) continue;
+        ++happened;
+        happen(population, i[c], j[c], p[c], u[c], counters);
+        // Those behind it are of the population as it is now.
+        for (std::size_t l = c + 1; l < count; ++l) {
+          if (i[l] != i[c] && i[l] != j[c] && j[l] != i[c] && j[l] != j[c]) continue;
+          p[l] = chance(rate(i[l], j[l]), i[l], j[l]);
+          marked |= static_cast<std::uint32_t>(p[l] > std::min(watched, u[l])) << l;
+        }
+      }
     }
     counters.fictitious += candidates - happened;
     events_ += happened;
@@ -175,9 +201,10 @@ void PairSampling<Type>::probe(const Rate& rate, const PairPopulation<Type>& pop
 }
 
 template <ParticleType Type>
-double PairSampling<Type>::pace(const PairPopulation<Type>& population, RandomStream& random) {
+double PairSampling<Type>::pace(PairPopulation<Type>& population, RandomStream& random) {
   if (population.size() == 0) return 0;
   if (!(over_ > 0)) {
+    population.findTerms();
     withRate(population, [&](const auto& rate) { probe(rate, population, random); });
     if (!(over_ > 0)) return 0;
   }

@@ -175,24 +175,21 @@ void PairProcess<Type>::grow(double step) {
   const Type& type = population_.type();
   const GrowthOptions& growth = model_.growth;
   std::array<double, 2> before{}, after{};
-  bool vanished = false;
-  for (std::size_t k = 0; k < population_.size(); ++k) {
-    const double weight = population_.weight(k), old = population_.volume(k);
-    const Particle grown = type.grown(population_.particle(k), growth.condensation, growth.surface(), step);
+  population_.change([&](Particle& particle, double weight) {
+    const double old = type.volume(particle);
+    const Particle grown = type.grown(particle, growth.condensation, growth.surface(), step);
     const double v = type.volume(grown);
     before[0] += weight * old;
     before[1] += weight * old * old;
-    if (v > 0 && v >= growth.smallestVolume) {
-      population_.set(k, grown, weight);
-      after[0] += weight * v;
-      after[1] += weight * v * v;
-    } else {
-      population_.setWeight(k, 0);
+    if (!(v > 0 && v >= growth.smallestVolume)) {
       ++counters_.vanished;
-      vanished = true;
+      return false;
     }
-  }
-  if (vanished) population_.remove([this](std::size_t k) { return population_.weight(k) == 0; });
+    particle = grown;
+    after[0] += weight * v;
+    after[1] += weight * v * v;
+    return true;
+  });
   for (std::size_t k = 0; k < 2; ++k)
     if (before[k] > 0) putIn_[k] *= after[k] / before[k];
 }

@@ -13,13 +13,6 @@
 
 namespace lampblack::particles {
 
-// A particle that stands for `number` (1/m3) real ones.
-template <class Particle>
-struct WeightedParticle {
-  Particle particle;
-  double number = 0;
-};
-
 // expected(k) >= 0 is the mean number of copies of element k.
 template <class Expected>
 [[nodiscard]] std::vector<std::size_t> systematicCopies(std::size_t count, const Expected& expected,

@@ -326,15 +326,14 @@ void WeightedMethod<Type, Store>::replace(std::vector<Entry> entries) {
 }
 
 template <ParticleType Type, class Store>
-void WeightedMethod<Type, Store>::join(const std::vector<WeightedParticle<Particle>>& coming, double chance,
-                                       RandomStream& random) {
+void WeightedMethod<Type, Store>::join(const std::vector<Entry>& coming, double chance, RandomStream& random) {
   const auto copies = systematicCopies(
       coming.size(), [&](std::size_t) { return chance; }, random);
   // Many at once are cheaper put in order with the others than one by one.
   std::vector<Entry> entries = takeAll();
   for (std::size_t k = 0; k < coming.size(); ++k)
     for (std::size_t copy = 0; copy < copies[k]; ++copy) {
-      entries.push_back({coming[k].particle, coming[k].number / chance});
+      entries.push_back({coming[k].particle, coming[k].weight / chance});
       track(entries.back(), 1);
     }
   assign(std::move(entries));

@@ -116,9 +116,8 @@ class WeightedMethod {
   }
   // Replaces all particles.
   void replace(std::vector<Entry> entries);
-  // Takes in the part `chance` of particles that stand for `number` (1/m3) real ones each, with numbers that make up
-  // for the others.
-  void join(const std::vector<WeightedParticle<Particle>>& coming, double chance, RandomStream& random);
+  // Takes in the part `chance` of these, with weights that make up for the others.
+  void join(const std::vector<Entry>& coming, double chance, RandomStream& random);
   // What a population in a gas keeps besides its particles and counters so that it goes on as it would have: for how
   // many real ones (1/m3) a nucleus stands, and whether the store was full. More particles than there is room for are
   // merged.

@@ -13,6 +13,7 @@
 #include "particles/population/monte_carlo/growth_jump.hpp"
 #include "particles/population/monte_carlo/power_law.hpp"
 #include "particles/population/monte_carlo/store.hpp"
+#include "particles/population/monte_carlo/weighted_particle.hpp"
 
 namespace lampblack::particles {
 
@@ -20,10 +21,7 @@ template <ParticleType Type>
 class WeightedRates {
  public:
   using Particle = typename Type::Particle;
-  struct Entry {
-    Particle particle;
-    double weight;  // 1/m3
-  };
+  using Entry = WeightedParticle<Particle>;
   static constexpr bool weighted = true;
   static constexpr bool bare = std::is_same_v<Type, Sphere>;
 

@@ -47,6 +47,31 @@ TEST(PairKernel, HasTheValuesOfTheKernel) {
   }
 }
 
+// More than a block of them.
+TEST(PairKernel, HasTheTermsOfManyAtOnce) {
+  const Sphere type(1800);
+  for (const auto kernelType : {constant, additive, multiplicative, freeMolecular, continuum, transition, shear}) {
+    const PairKernel pairs(kernelIn(kernelType));
+    std::vector<double> volume, mass, diameter;
+    std::vector<PairKernel::Terms> one;
+    for (double d = 5e-10; d < 6e-6; d *= 1.05) {
+      const auto x = kernelProperties(pairs.kernel(), type, type.make(constants::pi / 6 * d * d * d));
+      volume.push_back(x.volume);
+      mass.push_back(x.mass);
+      diameter.push_back(x.diameter);
+      one.push_back(pairs.terms(x));
+    }
+    ASSERT_GT(one.size(), 140u);
+    std::vector<PairKernel::Terms> all(one.size());
+    pairs.terms(volume.data(), mass.data(), diameter.data(), one.size(), all.data());
+    for (std::size_t k = 0; k < one.size(); ++k) {
+      EXPECT_FLOAT_EQ(all[k].size, one[k].size) << k;
+      EXPECT_FLOAT_EQ(all[k].mobility, one[k].mobility) << k;
+      EXPECT_FLOAT_EQ(all[k].inverseMass, one[k].inverseMass) << k;
+    }
+  }
+}
+
 TEST(PairKernel, SaysWhatItHasNoFormOf) {
   EXPECT_FALSE(PairKernel(kernelIn(transitionFuchs)).hasForm());
   EXPECT_FALSE(PairKernel(kernelIn(gravitational)).hasForm());
