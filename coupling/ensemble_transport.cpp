@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <tuple>
+#include <limits>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -27,18 +28,24 @@ constexpr double mostLeaving = 0.3;
 // Beyond how many mean weights a numerical particle goes in pieces, and in how many at most.
 constexpr double meanWeights = 2.0, mostPieces = 1000.0;
 
+// floor(log2(x)) of a normal x above zero.
+int exponentOf(double x) {
+  return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52U) - 1023;
+}
+
 // Where a volume (m3) lies between powers of two, 2^(first + node): straight between them.
 struct Between {
   std::size_t node;
   double part;
 };
 Between between(double volume, int first, std::size_t nodes) {
-  int exponent = 0;
-  const double mantissa = std::frexp(volume, &exponent);  // in [0.5, 1)
-  const int node = exponent - 1 - first;
+  const int exponent = exponentOf(volume), node = exponent - first;
   if (node < 0) return {0, 0.0};
   if (node > static_cast<int>(nodes) - 2) return {nodes - 2, 1.0};
-  return {static_cast<std::size_t>(node), 2.0 * mantissa - 1.0};
+  // 1 + part: the same digits with the exponent of one.
+  constexpr std::uint64_t one = 1023ULL << 52U, digits = (1ULL << 52U) - 1U;
+  const double scaled = std::bit_cast<double>((std::bit_cast<std::uint64_t>(volume) & digits) | one);
+  return {static_cast<std::size_t>(node), scaled - 1.0};
 }
 
 // What a numerical particle that goes as a whole may stand for.
@@ -80,9 +87,10 @@ struct EnsembleTransport::Side {
 };
 
 struct EnsembleTransport::Leaving {
-  std::int64_t face = 0;  // permanent number
-  int cell = 0;           // local, where it comes to
-  std::size_t row = 0;    // in leavingRows_, the number per metre depth or radian
+  int face = 0;         // local
+  int cell = 0;         // local, where it comes to
+  std::size_t row = 0;  // in leavingRows_, the number per metre depth or radian
+  int next = -1;        // that comes through the face to the same side
 };
 
 EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options)
@@ -94,12 +102,24 @@ EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options
       gradients_(density_.size() * static_cast<std::size_t>(context.mesh.dimension)),
       nothing_(known_.size() * classes),
       diffusivity_(options_.diffusion ? static_cast<std::size_t>(context.mesh.cells) * nodes : 0),
-      isFound_(static_cast<std::size_t>(context.mesh.cells)) {}
+      isFound_(static_cast<std::size_t>(context.mesh.cells)),
+      facesInOrder_(context.mesh.faceOfCell),
+      comingThrough_(2 * static_cast<std::size_t>(context.mesh.interiorFaces), Chain{-1, -1}) {
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const double volume = std::ldexp(1.0, smallest + static_cast<int>(node)), d = sphereDiameter(volume);
+    nodes_[node] = {d, 1.0 / (d * d), classOf(volume)};
+  }
+  const Mesh& m = context.mesh;
+  const auto numberOf = [&](int face) { return m.faceNumber[static_cast<std::size_t>(face)]; };
+  for (int cell = 0; cell < m.owned; ++cell)
+    std::ranges::sort(facesInOrder_.begin() + m.faceStart[cell], facesInOrder_.begin() + m.faceStart[cell + 1], {},
+                      numberOf);
+}
 
 EnsembleTransport::~EnsembleTransport() = default;
 
 int EnsembleTransport::classOf(double volume) {
-  return std::clamp((std::ilogb(volume) - smallest) / 3, 0, classes - 1);
+  return std::clamp((exponentOf(volume) - smallest) / 3, 0, classes - 1);
 }
 
 double EnsembleTransport::massOf(const Gas& gas, int cell, double part) const {
@@ -128,7 +148,7 @@ const double* EnsembleTransport::diffusivityOf(const Gas& gas, int cell) {
   const CarrierGas carrier{gas.state.temperature[cell], gas.state.thermodynamicPressure, gas.state.density[cell],
                            gas.viscosity[cell], gas.molecularWeight[cell]};
   for (std::size_t node = 0; node < nodes; ++node) {
-    const double d = sphereDiameter(std::ldexp(1.0, smallest + static_cast<int>(node)));
+    const double d = nodes_[node].diameter;
     row[node] = brownianDiffusivity(carrier, d) * d * d;
   }
   return row;
@@ -250,12 +270,10 @@ int EnsembleTransport::sumChances(const double* row, const std::vector<Side>& si
 
 // Of spheres between a node and the next, and of aggregates of that volume, which diffuse less: no sum of chances to
 // leave is above this. D falls with the volume, D d^2 rises.
-void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) {
+void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const {
   std::ranges::fill(bounds, 0.0);
   for (std::size_t node = 0; node < nodes; ++node) {
-    const double volume = std::ldexp(1.0, smallest + static_cast<int>(node));
-    const int k = classOf(volume);
-    const double d = sphereDiameter(volume), perSquare = 1.0 / (d * d);
+    const auto [diameter, perSquare, k] = nodes_[node];
     for (const Side& side : sides) {
       if (side.isWall) {
         bounds[node] += side.mostToWall(k, node, perSquare);
@@ -286,7 +304,7 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
     next = i + length;
     // Most stay, which their bound tells.
     const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
-    if (const int node = std::ilogb(volume) - smallest;
+    if (const int node = exponentOf(volume) - smallest;
         node >= 0 && node < static_cast<int>(nodes) && !(rows[i + packedNumberAt] > whole)) {
       double drawn = point;
       nextEvenPoint(drawn);
@@ -319,7 +337,7 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, do
       if (!(leave[s] > 0.0)) continue;
       Rows& to = sides[s].beyond < 0 ? gone_ : leavingRows_;
       if (sides[s].beyond >= 0)
-        leaving_.push_back({m.faceNumber[sides[s].face], sides[s].beyond, to.size()});
+        leaving_.push_back({sides[s].face, sides[s].beyond, to.size()});
       else
         goneThrough_.push_back(sides[s].face);
       to.insert(to.end(), &rows[i], &rows[i] + length);
@@ -345,7 +363,7 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
     if (isOwn(one)) continue;
     const double* row = &leavingRows_[one.row];
     ranks.push_back(m.haloRank[one.cell - m.owned]);
-    Rows letter{static_cast<double>(one.face), static_cast<double>(m.naturalCell[one.cell])};
+    Rows letter{static_cast<double>(m.faceNumber[one.face]), static_cast<double>(m.naturalCell[one.cell])};
     letter.insert(letter.end(), row, row + options_.rows.lengthOf(row));
     letters.add(letter);
   }
@@ -354,19 +372,37 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
   const PackedRows came = exchange.send(letters);
   const double* letter = came.values.data();
   for (const std::int64_t length : came.lengths) {
-    leaving_.push_back(
-        {static_cast<std::int64_t>(letter[0]), m.findOwned(static_cast<std::int64_t>(letter[1])), leavingRows_.size()});
+    const int cell = m.findOwned(static_cast<std::int64_t>(letter[1]));
+    const auto face =
+        std::find_if(m.faceOfCell.begin() + m.faceStart[cell], m.faceOfCell.begin() + m.faceStart[cell + 1],
+                     [&](int f) { return m.faceNumber[f] == static_cast<std::int64_t>(letter[0]); });
+    leaving_.push_back({*face, cell, leavingRows_.size()});
     leavingRows_.insert(leavingRows_.end(), letter + 2, letter + length);
     letter += length;
   }
-  std::ranges::stable_sort(
-      leaving_, [](const Leaving& a, const Leaving& b) { return std::tie(a.cell, a.face) < std::tie(b.cell, b.face); });
-  for (const Leaving& one : leaving_) {
-    const double* row = &leavingRows_[one.row];
-    Rows& to = arrived[one.cell];
-    to.insert(to.end(), row, row + options_.rows.lengthOf(row));
-    to[to.size() - options_.rows.lengthOf(row) + packedNumberAt] = row[packedNumberAt] / m.volume[one.cell];
+  for (int k = 0; k < static_cast<int>(leaving_.size()); ++k) {
+    Chain& chain = comingThrough_[2 * static_cast<std::size_t>(leaving_[k].face) +
+                                  (leaving_[k].cell == m.high[leaving_[k].face] ? 1 : 0)];
+    (chain.last < 0 ? chain.first : leaving_[chain.last].next) = k;
+    chain.last = k;
   }
+  for (int cell = 0; cell < m.owned; ++cell)
+    for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
+      const int face = facesInOrder_[i];
+      if (face >= m.interiorFaces) continue;
+      for (const bool isHigh : {false, true}) {
+        if ((isHigh ? m.high[face] : m.low[face]) != cell) continue;
+        Chain& chain = comingThrough_[2 * static_cast<std::size_t>(face) + (isHigh ? 1 : 0)];
+        for (int k = chain.first; k >= 0; k = leaving_[k].next) {
+          const double* row = &leavingRows_[leaving_[k].row];
+          const std::size_t length = options_.rows.lengthOf(row);
+          Rows& to = arrived[cell];
+          to.insert(to.end(), row, row + length);
+          to[to.size() - length + packedNumberAt] = row[packedNumberAt] / m.volume[cell];
+        }
+        chain = {-1, -1};
+      }
+    }
   leaving_.clear();
   leavingRows_.clear();
 }

@@ -19,6 +19,7 @@
 // so that the number does not leap. docs/theory/ensembles_in_cells.md.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -92,7 +93,7 @@ class EnsembleTransport {
   [[nodiscard]] bool diffuses(int face) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
   int sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const;
-  static void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds);
+  void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const;
   void drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head, Rows& rows);
   void send(std::vector<Rows>& arrived);
   [[nodiscard]] int findParts(const Gas& gas, double dt, const std::vector<Rows>& populations,
@@ -106,7 +107,17 @@ class EnsembleTransport {
   std::vector<double> nothing_;              // at the boundary
   std::vector<double> diffusivity_;          // of local cells: D d^2 at the nodes, m4/s
   std::vector<char> isFound_;                // whether it is that of this half of the step
+  struct Node {
+    double diameter, perSquare;  // m, 1/m2
+    int ofClass;
+  };
+  std::array<Node, nodes> nodes_{};
   std::vector<Leaving> leaving_;
+  std::vector<int> facesInOrder_;  // of each owned cell, as Mesh::faceOfCell, by their permanent numbers
+  struct Chain {
+    int first, last;  // places in leaving_, or -1
+  };
+  std::vector<Chain> comingThrough_;  // of each interior face: to its low side, to its high side
   Rows leavingRows_, gone_;
   std::vector<int> goneThrough_;
   int parts_ = 0;

@@ -175,8 +175,18 @@ TEST(EnsembleOperator, TellsWhatEqualWeightsTakeAndBring) {
 
 // In a gas that stays as it is the ensembles are the same to the last bit on any number of ranks, with sharing and
 // without.
-TEST(EnsembleOperator, DoesNotDependOnRanksNorSharing) {
-  SootOptions shared = sootOptions(Exchange::OneWay), own = shared;
+class MethodsInCells : public testing::TestWithParam<EnsembleMethod> {
+ protected:
+  [[nodiscard]] static SootOptions optionsOf(Exchange exchange, double average = 0.0) {
+    SootOptions o = sootOptions(exchange, average);
+    o.ensemble.method = GetParam();
+    return o;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(All, MethodsInCells, testing::Values(EnsembleMethod::sammc, EnsembleMethod::pairs));
+
+TEST_P(MethodsInCells, DoNotDependOnRanksNorSharing) {
+  SootOptions shared = optionsOf(Exchange::OneWay), own = shared;
   own.shareWork = false;
   Vessel alone(own, MPI_COMM_SELF), together(shared), apart(own);
   for (Vessel* v : {&alone, &together, &apart})
@@ -193,8 +203,8 @@ TEST(EnsembleOperator, DoesNotDependOnRanksNorSharing) {
 }
 
 // What a step that failed goes back to, and a restart: the same bits.
-TEST(EnsembleOperator, GoesOnToTheSameBits) {
-  Vessel v(sootOptions(Exchange::TwoWay, 1e-4));
+TEST_P(MethodsInCells, GoOnToTheSameBits) {
+  Vessel v(optionsOf(Exchange::TwoWay, 1e-4));
   for (int s = 0; s < 6; ++s) v.step();
   StateBackup kept(v.box.mesh.owned, v.box.mesh.faces);
   const double time = v.time;
