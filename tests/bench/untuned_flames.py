@@ -1,19 +1,21 @@
 #!/usr/bin/env python3
-"""Steady states of twenty flames from their decks alone, with all defaults of `time: {mode: steady}`: nobody has tuned them.
+"""Steady states of flames from their decks alone, with all defaults of `time: {mode: steady}`: nobody has tuned them. Twenty are
+made up; the others are burners of the literature, on coarse meshes.
 
 Usage: untuned_flames.py PROGRAM FOLDER [--seconds N] [NAME...]
 
 Writes the decks into the folder, runs those that are named (all without names), each for N seconds at most, and prints a row of
-docs/verification.md each: what came of it, steps in time, iterations, returns to steps, largest residual, processor seconds.
+docs/verification.md each: what came of it, steps in time, iterations, largest residual, processor seconds of both, peak in K.
 """
 
 import argparse
 import json
 import pathlib
+import re
 import subprocess
 
 MECHANISMS = pathlib.Path(__file__).resolve().parents[2] / "cases/mechanisms"
-M = {"H2": "hydrogen_h2o2_10", "CH4": "methane_drm19_21", "C2H4": "ethylene_bisetti2012_47"}
+M = {"H2": "hydrogen_h2o2_10", "H2 San Diego": "hydrogen_sandiego_9", "CH4": "methane_drm19_21", "C2H4": "ethylene_bisetti2012_47"}
 AIR = "O2: 0.21, N2: 0.79"
 
 def coflow(name, fuel, mix=None, p=1, uf=0.06, ua=0.12, rf=5, tube=False, gravity=True, air=AIR):
@@ -46,6 +48,37 @@ initial:
   formula: {{temperature: "298 + 1700*exp(-((r-{(rf + rim / 2) / 1000})^2 + (z-{(z0 + 0.6 * rf) / 1000})^2)/{0.6 * rf / 1000}^2)"}}
 time: {{mode: steady}}
 """
+
+def burner(name, fuel, mix, tube, wall, uf, ua, r, z, radiation=True, gravity=True, air=AIR):
+    """Fuel from a tube of an inner radius and a wall (mm), its flow fully developed, in a plug flow of air, m/s; r and z: the mesh.
+    A hot ring above the rim is to light it."""
+    rim, spot = tube + wall / 2, tube / 2
+    return name, f"""problem: flow
+mechanism: {MECHANISMS}/{M[fuel]}.yaml
+pressure: 1 atm
+{'gravity: {z: -9.81 m/s^2}' if gravity else ''}
+mesh:
+  geometry: axisymmetric
+  r: [{r}]
+  z: [{z}]
+boundaries:
+  fuel:
+    {{type: inlet, side: z-min, to: {tube} mm, temperature: 298 K, composition: "{mix}",
+     formula: {{velocity: "2*{uf}*(1 - (r/{tube / 1000})^2)"}}}}
+  rim: {{type: wall, side: z-min, from: {tube} mm, to: {tube + wall} mm, temperature: 298 K}}
+  air: {{type: inlet, side: z-min, from: {tube + wall} mm, velocity: {ua} m/s, temperature: 298 K, composition: "{air}"}}
+  axis: {{type: symmetry, side: r-min}}
+  shield: {{type: wall, side: r-max, slip: true}}
+  top: {{type: outlet, side: z-max, temperature: 298 K, composition: "{AIR}"}}
+initial:
+  layer: none
+  composition: "{AIR}"
+  temperature: 298 K
+  formula: {{temperature: "298 + 1700*exp(-((r-{rim / 1000})^2 + (z-{spot / 1000})^2)/{spot / 1000}^2)"}}
+{'radiation: {model: optically_thin}' if radiation else ''}
+time: {{mode: steady}}
+"""
+
 
 def counterflow(name, fuel, mix=None, p=1, u=0.3, gap=10, air=AIR):
     mix = mix or f"{fuel}: 1"
@@ -86,6 +119,11 @@ time: {{mode: steady}}
 """
 
 
+YALE = (2, 0.38, 0.35, 0.35, "{to: 2 mm, cells: 5}, {to: 2.38 mm, cells: 1}, {to: 6 mm, cells: 8}, {to: 37 mm, cells: 10, ratio: 12}",
+        "{to: 10 mm, cells: 16}, {to: 60 mm, cells: 26, ratio: 4}, {to: 120 mm, cells: 8, ratio: 2}")
+TORO = ("{to: 4.5 mm, cells: 9}, {to: 5.5 mm, cells: 2}, {to: 12 mm, cells: 10}, {to: 47.5 mm, cells: 10, ratio: 12}",
+        "{to: 10 mm, cells: 16}, {to: 60 mm, cells: 30, ratio: 4}, {to: 120 mm, cells: 8, ratio: 2}")
+
 FLAMES = dict([
     coflow("01_coflow_methane", "CH4"),
     coflow("02_coflow_methane_tube", "CH4", tube=True),
@@ -107,6 +145,25 @@ FLAMES = dict([
     premixed("18_plate_methane", "CH4", "CH4: 0.095, O2: 0.19, N2: 0.715", u=0.5),
     premixed("19_plate_hydrogen", "H2", "H2: 0.25, O2: 0.157, N2: 0.593", u=1.5),
     premixed("20_plate_methane_2_bar", "CH4", "CH4: 0.085, O2: 0.192, N2: 0.723", u=0.4, p=2),
+    # Walsh, Long, Tanoff, Smooke (1998); the same without gravity. Ethylene: Smooke, Long, Connelly, Colket, Hall (2005).
+    burner("21_yale_methane", "CH4", "CH4: 0.65, N2: 0.35", *YALE),
+    burner("22_yale_methane_no_gravity", "CH4", "CH4: 0.65, N2: 0.35", *YALE, gravity=False),
+    burner("23_yale_ethylene_32", "C2H4", "C2H4: 0.32, N2: 0.68", *YALE),
+    burner("24_yale_ethylene_80", "C2H4", "C2H4: 0.8, N2: 0.2", *YALE),
+    # Toro, Mokhov, Levinsky, Smooke (2005).
+    burner("25_toro_hydrogen_18", "H2 San Diego", "H2: 0.5, N2: 0.5", 4.5, 1, 0.18, 0.18, *TORO, radiation=False),
+    burner("26_toro_hydrogen_50", "H2 San Diego", "H2: 0.5, N2: 0.5", 4.5, 1, 0.5, 0.5, *TORO, radiation=False),
+    # McEnally and Pfefferle (1999), their flame without air in the fuel.
+    burner("27_mcenally_methane", "CH4", "CH4: 1", 5.55, 0.8, 0.0568, 0.1049,
+           "{to: 5.55 mm, cells: 10}, {to: 6.35 mm, cells: 1}, {to: 13 mm, cells: 10}, {to: 47.6 mm, cells: 10, ratio: 12}",
+           "{to: 12 mm, cells: 16}, {to: 90 mm, cells: 30, ratio: 4}, {to: 150 mm, cells: 8, ratio: 2}"),
+    # Snelling, Thomson, Smallwood, Guelder, Weckman, Fraser (2002).
+    burner("28_guelder_ethylene", "C2H4", "C2H4: 1", 5.45, 0.95, 0.03465, 0.74,
+           "{to: 5.45 mm, cells: 8}, {to: 6.4 mm, cells: 1}, {to: 13 mm, cells: 10}, {to: 45 mm, cells: 8, ratio: 12}",
+           "{to: 12 mm, cells: 16}, {to: 80 mm, cells: 28, ratio: 4}, {to: 120 mm, cells: 6, ratio: 2}"),
+    burner("29_inverse_methane", "CH4", AIR, 5, 0.5, 0.1, 0.1,
+           "{to: 5 mm, cells: 9}, {to: 5.5 mm, cells: 1}, {to: 10 mm, cells: 8}, {to: 20 mm, cells: 6, ratio: 3}",
+           "{to: 12 mm, cells: 18}, {to: 60 mm, cells: 24, ratio: 4}", radiation=False, air="CH4: 0.5, N2: 0.5"),
 ])
 
 
@@ -117,9 +174,14 @@ def row(folder: pathlib.Path, name: str, code: int) -> str:
         return f"| {name} | {'stopped by the limit' if code < 0 else f'exit {code}'} | {record['message'][:200]} |"
     results = record["results"]
     search = results["search"]
-    how = "at once" if search["returns_to_steps"] == 0 else "after going back"
-    return (f"| {name} | {how} | {search['steps_in_time']} | {search['iterations']} | {search['returns_to_steps']} | "
-            f"{search['last_residual']:.1e} | {search['processor_time_of_steps_s']:.0f} + {search['processor_time_of_iterations_s']:.0f} |")
+    how = "at once" if search["returns_to_steps"] == 0 else f"after going back {search['returns_to_steps']} times"
+    if search["found_early"]:
+        how = "early"
+    if search["times_lit"] > 0:
+        how += ", lit"
+    peak = re.search(r"peak temperature (\S+) K", (folder / f"{name}.log").read_text(encoding="utf-8")).group(1)
+    return (f"| {name} | {how} | {search['steps_in_time']} | {search['iterations']} | {search['last_residual']:.1e} | "
+            f"{search['processor_time_of_steps_s']:.1f} + {search['processor_time_of_iterations_s']:.1f} | {peak} |")
 
 
 def main() -> None:
