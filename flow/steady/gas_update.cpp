@@ -18,10 +18,10 @@ constexpr double kelvins = 1000.0;
 // What an iteration changes in a cell at most.
 constexpr double mostRise = 100.0;      // K
 constexpr double mostOfFraction = 0.1;  // mass fraction of any species
-// No iteration leaves less of a species than this, or than there was.
-constexpr double leastFraction = -1e-6;
-// The same of a species that reacts faster than it is moved: its rates may not tell one amount below zero from another.
-constexpr double leastOfFast = -1e-12;
+// No iteration leaves less of a species than this, or than there was; of a species that reacts faster than it is moved
+// not less than this in any case. Rates may not tell one amount below zero from another, and what oxygen below zero
+// would burn grows: traces such as HCO then live where there is no oxygen.
+constexpr double leastFraction = -1e-12;
 constexpr double gasReduction = 0.1;  // of the linear system's residual
 constexpr int mostGasIterations = 60;
 
@@ -122,8 +122,8 @@ double GasUpdate::take(State& state, int cell, double& largestRise) {
   for (std::size_t k = 0; k < n_; ++k) {
     const double reacts = -V * slopes[k * (width + 1)], moves = block[k * (width + 1)] - reacts;
     const bool isFast = reacts > moves;
-    const double least = isFast ? leastOfFast : std::min(Y[k], leastFraction);
-    Y[k] = std::max(std::max(Y[k], isFast ? leastOfFast : Y[k]) + share * change[k], least);
+    const double least = isFast ? leastFraction : std::min(Y[k], leastFraction);
+    Y[k] = std::max(std::max(Y[k], isFast ? leastFraction : Y[k]) + share * change[k], least);
     sum += Y[k];
   }
   for (std::size_t k = 0; k < n_; ++k) Y[k] /= sum;
