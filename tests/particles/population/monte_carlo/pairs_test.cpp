@@ -37,6 +37,7 @@ TEST(PairPopulation, FindsTheTermsThatItLacks) {
   population.add({3e-25}, 2);
   population.set(240, {4e-25}, 4);  // the one that was put in
   population.remove([](std::size_t k) { return k == 0; });
+  population.add({6e-25}, 2);
   const auto expectTerms = [&](const CollisionKernelOptions& of) {
     population.findTerms();
     const PairKernel one(of);
@@ -49,7 +50,7 @@ TEST(PairPopulation, FindsTheTermsThatItLacks) {
       ASSERT_FLOAT_EQ(row.volume, static_cast<float>(population.volume(k))) << k;
     }
   };
-  EXPECT_EQ(population.size(), 240u);
+  EXPECT_EQ(population.size(), 241u);
   expectTerms(kernel);
   population.change([](auto& particle, double weight) {
     particle.volume *= 2;
@@ -109,6 +110,25 @@ TEST(PairSampling, TakesManyPartnersAtOnce) {
   EXPECT_LT(candidates / 2000, 20u);  // far fewer than the 200 that are taken up
   const Sample left = summarise(number);
   EXPECT_LT(std::abs(left.z(1000.001 - 1e3 * std::expm1(2e-4))), zLimit) << left.mean;
+}
+
+// Three equal ones and K = A: dM2/dt = A M1^2, from the state that each candidate leaves, with pairs of a particle and
+// itself. All 29 candidates meet these three.
+TEST(PairSampling, TakesEachCandidateFromWhatTheOneBeforeLeft) {
+  const auto kernel = *colliding(constant, 1).coagulation;
+  std::vector<double> second;
+  RandomStream random(36, 0, 1);
+  PopulationCounters counters;
+  for (int repeat = 0; repeat < 20000; ++repeat) {
+    auto population = populationWith({{1, 1}, {1, 1}, {1, 1}}, kernel);
+    PairSampling<Sphere>(0.2).advance(population, 1, random, counters);
+    double sum = 0;
+    population.forEach([&](const auto& entry) { sum += entry.weight * std::pow(entry.particle.volume, 2); });
+    second.push_back(sum);
+  }
+  EXPECT_EQ(counters.coagulations + counters.fictitious, 29u * 20000u);
+  const Sample sample = summarise(second);
+  EXPECT_LT(std::abs(sample.z(12)), zLimit) << sample.mean;
 }
 
 // The mean of a candidate does not depend on how often candidates are drawn.
