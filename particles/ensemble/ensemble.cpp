@@ -46,8 +46,7 @@ std::unique_ptr<Ensemble> makeEnsemble(EnsembleOptions options) {
   monteCarlo.expectedNumber = options.startNumberDensity;
   monteCarlo.nucleusWeight = 1;
   monteCarlo.bundledGrowth = options.bundledGrowth;
-  // Fewer candidates cost less and scatter no more; with 1 the number of 100 particles is off by 0.4 %
-  // (docs/verification.md).
+  // Fewer candidates cost less and scatter no more (docs/verification.md); their error is of order p/n.
   monteCarlo.pairProbability = 0.5;
   switch (options.method) {
     case EnsembleMethod::dsmc:

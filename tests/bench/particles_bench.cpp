@@ -119,14 +119,15 @@ void twoEquationAccuracy(benchmark::State& state) {
 }
 BENCHMARK(twoEquationAccuracy)->Arg(10)->Arg(100)->Arg(1000);
 
-// Accuracy: mean and standard error over 400 repeats of the sooting gas at a splitting tolerance of range(0) 1e-4.
-void splittingAccuracy(benchmark::State& state) {
+// Accuracy: mean and standard error over range(1) repeats of the sooting gas at a splitting tolerance of range(0) 1e-4.
+void splittingAccuracy(benchmark::State& state, EnsembleMethod method) {
   const Flame flame(2e-5);
   EnsembleOptions options;
+  options.method = method;
   options.particles = 1024;
   options.soot = naphthalene();
   options.splitTolerance = 1e-4 * static_cast<double>(state.range(0));
-  const int repeats = 400;
+  const int repeats = static_cast<int>(state.range(1));
   double number = 0, squares = 0, volume = 0;
   for (auto _ : state) {
     for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -142,7 +143,10 @@ void splittingAccuracy(benchmark::State& state) {
   state.counters["error"] = std::sqrt((squares - number * number) / repeats);
   state.counters["fv"] = volume;
 }
-BENCHMARK(splittingAccuracy)->Arg(2000)->Arg(500)->Arg(125)->Iterations(1);
+BENCHMARK_CAPTURE(splittingAccuracy, dsmc, EnsembleMethod::dsmc)->ArgsProduct({{2000, 500, 125}, {400}})->Iterations(1);
+BENCHMARK_CAPTURE(splittingAccuracy, pairs, EnsembleMethod::pairs)
+    ->ArgsProduct({{4000, 2000, 1000, 500}, {1500}})
+    ->Iterations(1);
 
 }  // namespace
 
