@@ -218,7 +218,11 @@ std::string FlowLoop::searchPlace() const {
 std::vector<std::string> FlowLoop::searchLines() const {
   const std::string back = search_->returns() > 0 ? fmt::format(", {} times back to steps", search_->returns()) : "";
   const std::string lit = search_->lightings() > 0 ? fmt::format(", {} times lit", search_->lightings()) : "";
-  const std::string early = search_->isAttempt() && isSteady() ? ", before the heat release was quiet" : "";
+  const std::string early = search_->isAttempt() && isSteady()
+                                ? ", before the heat release was quiet (where a flow has several steady states, one in "
+                                  "time may end in another: "
+                                  "time.steady.attempts=0)"
+                                : "";
   const std::string takenBack =
       search_->attempts() > 0 ? fmt::format(", {} of which were taken back", search_->iterationsTakenBack()) : "";
   const std::string first = search_->firstResidual() > 0.0

@@ -84,14 +84,17 @@ void FlowUpdate::move(State& state, std::span<const double> inertia) {
       for (std::size_t i = 0; i < d_; ++i)
         rises += m.normal[face][i] * (w * change_[low * fields_ + i] + (1.0 - w) * change_[high * fields_ + i]);
     const double density = residual_.faces().density[face];
+    // What goes through an outlet has the velocity of its cell, whose gas may be far lighter than what is drawn in: the
+    // flux follows the pressure by as much more than the cell's momentum.
+    const double denser = !isInside && isOpen ? density / state.density[low] : 1.0;
     // Gas that is drawn in through an outlet lowers the pressure there, by its velocity for each change of its flow.
     double holds = 1.0;
     if (!isInside && isOpen && state.massFlux[face] < 0.0)
-      holds += response_[low] / m.distance[face] * -state.massFlux[face] / (density * m.area[face]);
+      holds += denser * response_[low] / m.distance[face] * -state.massFlux[face] / (density * m.area[face]);
     const double share = isInside ? w * share_[low] + (1.0 - w) * share_[high] : 1.0;
     const double rise = (share * rates.massFlux[face] + density * m.area[face] * rises) / holds;
     flux_[face] = m.area[face] > 0.0 ? (state.massFlux[face] + rise) / m.area[face] : 0.0;
-    faceResponse_[face] = (w * response_[low] + (1.0 - w) * response_[high]) / holds;
+    faceResponse_[face] = denser * (w * response_[low] + (1.0 - w) * response_[high]) / holds;
   }
   for (int c = 0; c < m.cells; ++c) {
     const auto cell = static_cast<std::size_t>(c);

@@ -333,6 +333,20 @@ TEST(SteadyMode, AnAttemptGoesOnFromACheckpoint) {
   EXPECT_EQ(inTime(a), inTime(b));
 }
 
+// Through an outlet, between hot walls: six times as dense as the gas that it meets.
+TEST(SteadyMode, ColdGasIsDrawnIntoHot) {
+  const test::SharedScratchFolder scratch;
+  const RunRecord found = runChannel(
+      scratch.path() / "found",
+      {steady, "time.steady.returns=0", "mesh.x=[{to: 6 mm, cells: 6}]", "mesh.y=[{to: 6 mm, cells: 6}]",
+       "initial.temperature=1800 K", "boundaries.cold.temperature=1800 K", "boundaries.adiabatic.temperature=1800 K",
+       "boundaries.in={type: inlet, side: y-min, temperature: 1800 K, composition: 'GAS: 1', formula: "
+       "{velocity: '-0.3'}}"});
+  EXPECT_THAT(found.resultsJson, AllOf(HasSubstr("\"steady\": true"), HasSubstr("\"found_early\": true")));
+  const Hdf5Reader results(scratch.path() / "found/results.h5");
+  EXPECT_LT(std::ranges::min(lastOf(results, "temperature")), 500.0);
+}
+
 struct Refused {
   const char* name;
   std::vector<std::string> settings;

@@ -20,6 +20,7 @@ struct Known {
   double growth = 0.4, frequency = 0.8;
   double constant = 1.0;  // the state that stays
   double bend = 0.0;      // of the square of a disturbance
+  double drift = 0.0;     // of every value in a march
 
   void march(std::vector<double>& v) const {
     const double a = std::exp(growth * time), phase = 2.0 * std::numbers::pi * frequency * time;
@@ -31,8 +32,8 @@ struct Known {
     x[0] = x0;
     x[1] = x1;
     for (std::size_t i = 0; i < values; ++i) {
-      v[i] = constant + x[i];
-      v[values + i] = 2.0 * x[i];
+      v[i] = constant + x[i] + drift;
+      v[values + i] = 2.0 * x[i] + drift;
     }
   }
   [[nodiscard]] LeadingModes modes(const ModeOptions& options, double unit = 1.0) const {
@@ -76,6 +77,13 @@ TEST(LeadingModes, DisturbsAsMuchAsItIsTold) {
   EXPECT_NEAR(small, 0.4, 1e-2);
   EXPECT_GT(std::abs(large - 0.4), 10.0 * std::abs(small - 0.4));
   EXPECT_NEAR(sameAsLarge, large, 1e-9);
+}
+
+// A state that is not quite steady.
+TEST(LeadingModes, AreThoseOfDisturbancesAndNotOfTheState) {
+  const LeadingModes still = Known{}.modes({.vectors = 12}), drifting = Known{.drift = 1e-3}.modes({.vectors = 12});
+  EXPECT_NEAR(drifting.modes.at(0).growthRate, still.modes.at(0).growthRate, 1e-6);
+  EXPECT_NEAR(drifting.modes.at(0).frequency, still.modes.at(0).frequency, 1e-6);
 }
 
 TEST(LeadingModes, AreNotToldWhereTooFewVectorsWereMarched) {

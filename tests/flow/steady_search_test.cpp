@@ -243,6 +243,12 @@ TEST(SteadySearch, AttemptsComeAfterTwiceAsManySteps) {
   EXPECT_EQ(search.attempts(), 3);
   EXPECT_EQ(search.iterationsTakenBack(), 3);
   EXPECT_EQ(search.returns(), 2);
+  // Nor behind a return, though one would be due after ten more steps.
+  SteadySearch returned({.attempts = 2});
+  for (const int expected : {20, 30, 100}) {
+    EXPECT_EQ(steps(returned), expected);
+    returned.endIterations("no pressure");
+  }
   // Where the number of steps is given there are none.
   SteadySearch asked({.steps = 30, .attempts = 2});
   EXPECT_EQ(steps(asked), 30);
