@@ -129,9 +129,9 @@ def main(executable: str, *mpiexec: str) -> int:
         cold = ("'N2: 1'", "boundaries.fuel.composition='N2: 1'", "boundaries.oxidiser.composition='N2: 1'")
         runs["steady"] = (steady, *running.settings(f"initial={{layer: none, composition: {cold[0]}, temperature: 298 K}}", *cold[1:],
                                                     "boundaries.fuel.swirl_velocity=1 m/s", "time.steady.residual=0.9"))
-        for model in ("sa", "sst", "wray_agarwal"):
+        for model in ("sa", "sst", "wray_agarwal", "k_epsilon"):
             runs[f"turbulent_{model}"] = (CASES / "flow/turbulent_channel/deck.yaml", *running.settings(
-                f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms"))
+                f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms", "output.boundaries=[wall]"))
         # All blocks of an instant: five are soon over.
         runs["flow_ensembles"] = (ensembles, *running.settings(
             "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={particles: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
