@@ -71,7 +71,7 @@ def run(program, deck: pathlib.Path, out: pathlib.Path, *more) -> dict:
     with h5py.File(out / "results.h5", "r") as file:
         for name, table in found.items():
             kind, what = name.split("_", 1)
-            group = file[{"probe": "probes", "line": "lines", "boundary": "boundaries"}[kind]][what]
+            group = file[{"probe": "probes", "line": "lines", "boundary": "boundaries", "wall": "walls"}[kind]][what]
             for column, values in table.items():
                 dataset = group[column.rsplit(" [", 1)[0]]
                 unit = dataset.attrs["unit"]
@@ -86,10 +86,11 @@ def near(found, expected, tolerance, what):
 
 
 def check_shapes(out: pathlib.Path, found: dict, unit: str, depth: str) -> None:
-    assert set(found) == {"probe_middle", "probe_corner", "probe_end", "line_across", *(f"boundary_{b}" for b in ("in", "out", "low", "high"))}
+    assert set(found) == {"probe_middle", "probe_corner", "probe_end", "line_across", "wall_low", "wall_high",
+                          *(f"boundary_{b}" for b in ("in", "out", "low", "high"))}
     history = columns(out / "history.csv")
     for name in found:
-        if name != "line_across":
+        if name != "line_across" and not name.startswith("wall_"):
             assert np.array_equal(found[name]["step [1]"], history["step [1]"]), f"{name}: not a row a row of the history"
             assert np.array_equal(found[name]["time [s]"], history["time [s]"])
     line = found["line_across"]
@@ -117,6 +118,12 @@ def check_balances(out: pathlib.Path, found: dict, depth: float) -> None:
     near(gained, np.diff(content), 1e-12 * content[0], "mass that came in")
     near(of(walls[0], "area"), HEIGHT * depth, 1e-12, "area of the entrance")
     near(of(walls[2], "area"), LENGTH * depth, 1e-12, "area of a wall")
+    for wall in ("low", "high"):
+        faces = found[f"wall_{wall}"]
+        last = of(faces, "step") == of(faces, "step")[-1]
+        near(of(faces, "area")[last].sum(), LENGTH * depth, 1e-12, "area of all faces of a wall")
+        force_of_faces = (of(faces, "friction_x") * of(faces, "area"))[last].sum()
+        near(force_of_faces / force(found[f"boundary_{wall}"], "viscous", "x")[-1], 1, 1e-6, f"friction of the faces of {wall}")
     flow = 101325 * 0.028014 / (8.314462618 * 300) * SPEED * HEIGHT * depth
     near(of(walls[0], "mass_flow") / flow, 1, 0.01, "mass flow through the entrance")
     assert np.all(of(walls[1], "mass_flow") < 0) and np.all(of(walls[2], "mass_flow") == 0)
@@ -197,9 +204,9 @@ def check(programs: dict, name: str, folder: pathlib.Path, gmsh_text) -> None:
         for other in others:
             for table, found in other.items():
                 for column, values in found.items():
-                    scale = max(np.abs(first[table][column]).max(), 1e-6)
+                    scale = max(np.abs(first[table][column]).max(), 1e-3 if "heat_flux" in column else 1e-6)
                     near(values / scale, first[table][column] / scale, 1e-4 if "velocity_y" in column or "force_y" in column or
-                         "viscous_force_z" in column or "viscous" in column else 1e-5, f"{name}: {table}, {column} on other ranks")
+                         "viscous" in column or "friction" in column else 1e-5, f"{name}: {table}, {column} on other ranks")
 
 
 def check_initial(program, folder: pathlib.Path) -> None:
