@@ -110,7 +110,7 @@ void SteadySearch::addIteration(double residual, double heatRelease, bool burns)
     best_ = residual;
     bestAt_ = iterationsNow_;
   }
-  if (iterationsNow_ - bestAt_ >= patience)
+  if (!isAttempt_ && iterationsNow_ - bestAt_ >= patience)
     goBack(fmt::format("the residual has not fallen below {:.2e} in {} iterations", best_, patience));
   else if (hasNoIterationsLeft() && isAttempt_)
     goBack(fmt::format("{} iterations were not enough", iterationsNow_));

@@ -75,6 +75,17 @@ TEST(SteadySearch, TakesAsManyStepsAnewOnceLit) {
   EXPECT_FALSE(dark.isSteady());
 }
 
+TEST(SteadySearch, AnAttemptHasItsIterationsWhateverTheResidualDoes) {
+  SteadySearch search({.attempts = 1});
+  EXPECT_EQ(steps(search), 20);
+  for (int i = 1; i < 300; ++i) search.addIteration(i < 10 ? high : 100 * high, 1.0);
+  EXPECT_TRUE(search.isAttempt());
+  EXPECT_EQ(search.phase(), Phase::Iterations);
+  search.addIteration(high, 1.0);
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_TRUE(search.takesBack());
+}
+
 TEST(SteadySearch, AttemptsNothingWhereNothingBurns) {
   SteadySearch search({.attempts = 2});
   for (int step = 1; step <= 49; ++step) {
