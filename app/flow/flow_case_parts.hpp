@@ -40,6 +40,10 @@ std::string fileNameOf(std::string name);
 // The section time: its keys, and reading it with what else the steps depend on, when boundaries, start and particles
 // have been read. requireModeOfParticles: ensembles fluctuate and are never steady.
 void addTimeKeys(DeckSchema& schema);
+void addSteadyKeys(DeckSchema& schema);           // of time.steady
+[[nodiscard]] bool isSearched(const Deck& deck);  // whether the run looks for a steady state
+std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase);
+TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase);
 void requireModeOfParticles(const Deck& deck);
 void readTime(const Deck& deck, FlowCase& flowCase);
 
