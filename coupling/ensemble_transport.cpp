@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -13,9 +11,8 @@
 #include "core/first_error.hpp"
 #include "core/random.hpp"
 #include "core/rank_exchange.hpp"
-#include "flow/boundaries/wall_flux.hpp"
+#include "coupling/ensemble_transport_sides.hpp"
 #include "particles/collisions/sphere.hpp"
-#include "particles/population/monte_carlo/systematic_sample.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -25,73 +22,8 @@ constexpr int mostParts = 600;                     // of a half
 
 // Of a cell in a part. Diffusion is explicit in time: of first order in this.
 constexpr double mostLeaving = 0.3;
-// Beyond how many mean weights a numerical particle goes in pieces, and in how many at most.
-constexpr double meanWeights = 2.0, mostPieces = 1000.0;
-
-// floor(log2(x)) of a normal x above zero.
-int exponentOf(double x) {
-  return static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52U) - 1023;
-}
-
-// Where a volume (m3) lies between powers of two, 2^(first + node): straight between them.
-struct Between {
-  std::size_t node;
-  double part;
-};
-Between between(double volume, int first, std::size_t nodes) {
-  const int exponent = exponentOf(volume), node = exponent - first;
-  if (node < 0) return {0, 0.0};
-  if (node > static_cast<int>(nodes) - 2) return {nodes - 2, 1.0};
-  // 1 + part: the same digits with the exponent of one.
-  constexpr std::uint64_t one = 1023ULL << 52U, digits = (1ULL << 52U) - 1U;
-  const double scaled = std::bit_cast<double>((std::bit_cast<std::uint64_t>(volume) & digits) | one);
-  return {static_cast<std::size_t>(node), scaled - 1.0};
-}
-
-// What a numerical particle that goes as a whole may stand for.
-double largestWhole(const ParticleRows& layout, std::span<const double> rows) {
-  double number = 0.0, count = 0.0;
-  layout.forEach(rows, [&](const double* row) {
-    number += row[packedNumberAt];
-    count += 1.0;
-  });
-  return meanWeights * number / count;
-}
 
 }  // namespace
-
-// One of a cell's faces, as its particles see it, in one part of a step.
-struct EnsembleTransport::Side {
-  int face = 0, beyond = -1;                // the cell on the other side, or -1
-  std::array<double, classes> convected{};  // probability to go with the gas
-  std::array<double, classes> diffused{};   // factor of `diffusion`: o
-  std::array<double, nodes> diffusion{};    // times d^2, m2: at the nodes
-  bool diffuses = false;
-  // A wall that takes particles: `drift` is the probability to drift to it with the value of the cell, or below zero;
-  // `convected` how much more of it particles have that follow the slope in the cell.
-  bool isWall = false;
-  double drift = 0.0;
-  std::array<bool, classes> isLimited{};  // whether convected or diffused is
-
-  // To a wall: of a particle of that volume and class, and no less than that of any up to the next node.
-  [[nodiscard]] double toWall(int k, const Between& at, double perSquare) const {
-    const double through =
-        diffuses ? perSquare * (diffusion[at.node] + at.part * (diffusion[at.node + 1] - diffusion[at.node])) : 0.0;
-    return takenByWall(drift, through) + outsideWallLayer(drift, through) * convected[k];
-  }
-  [[nodiscard]] double mostToWall(int k, std::size_t node, double perSquare) const {
-    const double through =
-        diffuses ? perSquare * std::max(diffusion[node], diffusion[std::min(node + 1, nodes - 1)]) : 0.0;
-    return takenByWall(drift, through) + std::max(convected[k], 0.0);
-  }
-};
-
-struct EnsembleTransport::Leaving {
-  int face = 0;         // local
-  int cell = 0;         // local, where it comes to
-  std::size_t row = 0;  // in leavingRows_, the number per metre depth or radian
-  int next = -1;        // that comes through the face to the same side
-};
 
 EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options)
     : context_(context),
@@ -238,118 +170,6 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
     }
     sides.push_back(side);
   }
-}
-
-// Of a particle: the sums of its probabilities to leave through the sides up to each of them. Returns its class of
-// size.
-int EnsembleTransport::sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const {
-  const double volume = massAt(row) / options_.type.density(), primaries = row[2];
-  const int k = classOf(volume);
-  double d = sphereDiameter(volume), ofMobility = volume;
-  if (primaries > 1.0) {
-    d *= SootAggregate::mobilityFactor(primaries) / std::cbrt(primaries);
-    ofMobility = constants::pi / 6.0 * d * d * d;
-  }
-  const Between at = between(ofMobility, smallest, nodes);
-  const double perSquare = 1.0 / (d * d);
-  double sum = 0.0;
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    const Side& side = sides[s];
-    if (side.isWall) {
-      sum += side.toWall(k, at, perSquare);
-    } else {
-      sum += side.convected[k];
-      if (side.diffuses)
-        sum += side.diffused[k] * perSquare *
-               (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
-    }
-    upTo[s] = sum;
-  }
-  return k;
-}
-
-// Of spheres between a node and the next, and of aggregates of that volume, which diffuse less: no sum of chances to
-// leave is above this. D falls with the volume, D d^2 rises.
-void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const {
-  std::ranges::fill(bounds, 0.0);
-  for (std::size_t node = 0; node < nodes; ++node) {
-    const auto [diameter, perSquare, k] = nodes_[node];
-    for (const Side& side : sides) {
-      if (side.isWall) {
-        bounds[node] += side.mostToWall(k, node, perSquare);
-        continue;
-      }
-      bounds[node] += side.convected[k];
-      if (side.diffuses)
-        bounds[node] += side.diffused[k] * perSquare *
-                        std::max(side.diffusion[node], side.diffusion[std::min(node + 1, nodes - 1)]);
-    }
-  }
-}
-
-void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head,
-                                    Rows& rows) {
-  const Mesh& m = context_.mesh;
-  if (sides.empty() || rows.size() <= head) return;
-  std::array<double, Mesh::mostSides> upTo{};
-  std::array<bool, classes> isLimited{};
-  for (const Side& side : sides)
-    for (std::size_t k = 0; k < isLimited.size(); ++k) isLimited[k] = isLimited[k] || side.isLimited[k];
-  const double whole = largestWhole(options_.rows, std::span(rows).subspan(head));
-  std::array<double, nodes> bounds;
-  boundChances(sides, bounds);
-  std::size_t kept = head, next = head;
-  for (std::size_t i = head; i < rows.size(); i = next) {
-    const std::size_t length = options_.rows.lengthOf(&rows[i]);
-    next = i + length;
-    // Most stay, which their bound tells.
-    const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
-    if (const int node = exponentOf(volume) - smallest;
-        node >= 0 && node < static_cast<int>(nodes) && !(rows[i + packedNumberAt] > whole)) {
-      double drawn = point;
-      nextEvenPoint(drawn);
-      if (drawn >= bounds[static_cast<std::size_t>(node)]) {
-        point = drawn;
-        if (isLimited[classOf(volume)]) ++limited_;
-        if (kept != i) std::copy_n(&rows[i], length, &rows[kept]);
-        kept += length;
-        continue;
-      }
-    }
-    const int k = sumChances(&rows[i], sides, upTo);
-    const double sum = upTo[sides.size() - 1];
-    if (sum > 1.0 || isLimited[k]) ++limited_;
-    const double number = rows[i + packedNumberAt];
-    const double pieces = std::clamp(std::ceil(number / whole), 1.0, mostPieces);
-    std::array<double, Mesh::mostSides> leave{};
-    double stay = pieces;
-    for (int piece = 0; piece < static_cast<int>(pieces); ++piece) {
-      nextEvenPoint(point);
-      const double drawn = sum > 1.0 ? point * sum : point;
-      if (drawn >= sum) continue;
-      std::size_t s = 0;
-      while (s + 1 < sides.size() && drawn >= upTo[s]) ++s;
-      leave[s] += 1.0;
-      stay -= 1.0;
-    }
-    const double inCell = number * m.volume[cell];
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-      if (!(leave[s] > 0.0)) continue;
-      Rows& to = sides[s].beyond < 0 ? gone_ : leavingRows_;
-      if (sides[s].beyond >= 0)
-        leaving_.push_back({sides[s].face, sides[s].beyond, to.size()});
-      else
-        goneThrough_.push_back(sides[s].face);
-      to.insert(to.end(), &rows[i], &rows[i] + length);
-      to[to.size() - length + packedNumberAt] = inCell * leave[s] / pieces;
-    }
-    if (stay > 0.0) {
-      if (kept != i) std::copy_n(&rows[i], length, &rows[kept]);
-      if (stay < pieces) rows[kept + packedNumberAt] = number * stay / pieces;
-      kept += length;
-    }
-  }
-  rows.resize(kept);
 }
 
 // Collective. Those that came through a face come behind one another in the order in which they left, faces in that of

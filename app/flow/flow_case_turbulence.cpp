@@ -125,9 +125,8 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
   if (flowCase.swirls)
     throw deck.error("turbulence.model", "the models do not know the strain of a flow that swirls; expected none");
   if (turbulence.model->needsWallDistance() &&
-      std::ranges::none_of(flowCase.boundaries, [](const BoundaryCondition& boundary) {
-        return boundary.kind == BoundaryKind::Wall && !boundary.slip;
-      })) {
+      std::ranges::none_of(flowCase.boundaries,
+                           [](const BoundaryCondition& boundary) { return boundary.isNoSlipWall(); })) {
     std::vector<std::string> names;
     for (const BoundaryCondition& boundary : flowCase.boundaries) names.push_back(boundary.name);
     throw deck.error("turbulence.model",

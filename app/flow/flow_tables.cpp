@@ -190,7 +190,7 @@ std::vector<std::size_t> FlowTables::deposits() const {
 std::vector<std::size_t> FlowTables::walls() const {
   std::vector<std::size_t> found;
   for (const std::size_t b : case_.output.tables.boundaries)
-    if (case_.boundaries[b].kind == BoundaryKind::Wall && !case_.boundaries[b].slip) found.push_back(b);
+    if (case_.boundaries[b].isNoSlipWall()) found.push_back(b);
   return found;
 }
 

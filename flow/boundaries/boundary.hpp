@@ -41,6 +41,9 @@ struct BoundaryCondition {
   bool slip = false;            // Wall
   bool takesParticles = false;  // Wall: what is carried and touches it stays there (flow/boundaries/wall_flux.hpp)
   BoundaryVariation varies;     // in place of the values above
+
+  // A wall at which the gas has the velocity of the wall.
+  [[nodiscard]] bool isNoSlipWall() const { return kind == BoundaryKind::Wall && !slip; }
 };
 
 }  // namespace lampblack::flow

@@ -60,8 +60,7 @@ double CarriedTransport::wallDiffusion(const State& state, const FaceState& face
   if (share > 0.0 && context_.boundaryOf(face).kind == BoundaryKind::Wall)
     return metric * share * properties.boundaryViscosity[face - m.interiorFaces];
   const double D = state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
-  if (state.wallEnergy >= 0 && state.scalars[scalar].isStirred && D > 0.0 &&
-      context_.boundaryOf(face).kind == BoundaryKind::Wall && !context_.boundaryOf(face).slip) {
+  if (state.wallEnergy >= 0 && state.scalars[scalar].isStirred && D > 0.0 && context_.boundaryOf(face).isNoSlipWall()) {
     const auto cell = static_cast<std::size_t>(m.low[face]);
     const double viscosity = properties.boundaryViscosity[face - m.interiorFaces];
     const double exchange = walllaw::exchange(state, cell, m.distance[face]);

@@ -75,8 +75,7 @@ void Swirl::completeOuterSlopes(std::span<const double> density, std::span<doubl
 // Whether a boundary holds the gas beside it at a velocity of its own.
 bool Swirl::isGiven(int face) const {
   const BoundaryCondition& boundary = context_.boundaryOf(face);
-  return (boundary.kind == BoundaryKind::Inlet && !context_.isSuction(face)) ||
-         (boundary.kind == BoundaryKind::Wall && !boundary.slip);
+  return (boundary.kind == BoundaryKind::Inlet && !context_.isSuction(face)) || boundary.isNoSlipWall();
 }
 
 // Gas that is drawn in through an outlet comes from rest.

@@ -61,7 +61,7 @@ void GasProperties::addEddies(const FlowContext& context, const State& state) {
   effectiveBoundaryConductivity_ = boundaryConductivity;
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryCondition& boundary = context.boundaryOf(face);
-    const bool isSticky = boundary.kind == BoundaryKind::Wall && !boundary.slip;
+    const bool isSticky = boundary.isNoSlipWall();
     const auto b = static_cast<std::size_t>(face - m.interiorFaces);
     const auto cell = static_cast<std::size_t>(m.low[face]);
     if (isSticky && state.wallEnergy >= 0) addWallLaw(context, state, face);

@@ -20,11 +20,6 @@ constexpr int mostHalvings = 6;
 // Amounts, of the largest anywhere, below which what is left of an equation does not count more.
 constexpr double leastCounted = 1e-8;
 
-// Per m3 and s, of one value.
-double rateOf(const State::Balance& made, const State& state, std::size_t i) {
-  return made.carried[i] - made.carriedSink[i] * state.carried[i];
-}
-
 }  // namespace
 
 CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, const FlowResidual& residual,
@@ -107,7 +102,7 @@ double CarriedUpdate::leftOf(const State& state, int cell, double share) const {
       double expected = 0.0;
       for (std::size_t by = 0; by < n_; ++by)
         expected += slopes_[(c * n_ + by) * n_ + s] * scales_[by] * change_[c * n_ + by];
-      left += (V * (rateOf(made_, state, i) - startRates_[i]) - share * mass * expected) / scales_[s];
+      left += (V * (made_.netOfCarried(i, state.carried) - startRates_[i]) - share * mass * expected) / scales_[s];
     }
     left /= mass * (std::abs(start_[i]) / scales_[s] + leastCounted);
     sum += left * left;
@@ -121,7 +116,7 @@ void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
   for (std::size_t c = 0; c < owned; ++c) {
     for (std::size_t i = c * n_; i < (c + 1) * n_; ++i) {
       start_[i] = state.carried[i] / state.density[c];
-      startRates_[i] = rateOf(residual.rates().made, state, i);
+      startRates_[i] = residual.rates().made.netOfCarried(i, state.carried);
     }
     before[c] = leftOf(state, static_cast<int>(c), 0.0);
   }

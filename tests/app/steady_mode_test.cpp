@@ -4,12 +4,10 @@
 #include <cmath>
 #include <optional>
 
-#include "app/flow/flow_loop.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
-#include "io/checkpoint_folder.hpp"
 #include "io/hdf5_reader.hpp"
-#include "tests/app/app_fixture.hpp"
+#include "tests/app/flow_runs.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/shared_scratch.hpp"
 
@@ -21,10 +19,7 @@ using testing::HasSubstr;
 
 // Warm gas into a channel with a cold wall.
 Deck channel(const std::vector<std::string>& overrides) {
-  return Deck::parse(
-      "problem: flow\n"
-      "mechanism: " +
-          test::sourcePath("cases/mechanisms/perfect_gas_1.yaml") + "\n" + R"(
+  return test::flowDeck("perfect_gas_1.yaml", R"(
 mesh: {geometry: planar, x: [{to: 4 mm, cells: 5}], y: [{to: 8 mm, cells: 8}]}
 boundaries:
   in: {type: inlet, side: y-min, velocity: 30 cm/s, temperature: 400 K, composition: "GAS: 1"}
@@ -33,7 +28,7 @@ boundaries:
   adiabatic: {type: wall, side: x-max}
 initial: {layer: none, composition: "GAS: 1", temperature: 300 K}
 )",
-      "channel.yaml", overrides, flowSchema());
+                        overrides);
 }
 
 // Fails in the step, or the iteration, of this number.
@@ -67,15 +62,7 @@ class FailsTwice : public Operator {
 // `restart`: the folder of a run, or a checkpoint.
 RunRecord runChannel(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                      const std::optional<std::filesystem::path>& restart = {}, Operator* more = nullptr) {
-  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(channel(overrides)));
-  if (more != nullptr) loop.addOperator(*more);
-  if (restart)
-    loop.load(restart->extension() == ".h5" ? wholeCheckpoint(MPI_COMM_WORLD, *restart)
-                                            : newestCheckpoint(MPI_COMM_WORLD, *restart));
-  loop.run(RunFolder::prepare(path, false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
-  RunRecord record;
-  loop.report(1.0, record);
-  return record;
+  return test::runFlow(channel(overrides), path, restart, more);
 }
 
 const std::string steady = "time.mode=steady", boundaries = "output.boundaries=[all]";
@@ -125,10 +112,7 @@ TEST(SteadyMode, FindsTheStateThatALongRunInTimeEndsIn) {
 TEST(SteadyMode, FindsATurbulentChannel) {
   const test::SharedScratchFolder scratch;
   const auto deck = [](const std::vector<std::string>& overrides) {
-    return Deck::parse(
-        "problem: flow\n"
-        "mechanism: " +
-            test::sourcePath("cases/mechanisms/perfect_gas_1.yaml") + "\n" + R"(
+    return test::flowDeck("perfect_gas_1.yaml", R"(
 transport:
   model: unity_lewis
   sutherland: {viscosity: 1.68e-5 Pa s, temperature: 273 K, constant: 110.5 K, prandtl_number: 0.71}
@@ -143,12 +127,12 @@ driving_acceleration: {x: 8.10175 m/s^2}
 initial: {layer: none, composition: "GAS: 1", temperature: 300 K, formula: {velocity_x: "15.2*(y/0.05)^0.125"}}
 output: {boundaries: [wall]}
 )",
-        "channel.yaml", overrides, flowSchema());
+                          overrides);
   };
   const auto run = [&](const char* name, const std::vector<std::string>& overrides, const char* from = nullptr) {
-    FlowLoop loop(MPI_COMM_WORLD, readFlowCase(deck(overrides)));
-    if (from != nullptr) loop.load(newestCheckpoint(MPI_COMM_WORLD, scratch.path() / from));
-    loop.run(RunFolder::prepare(scratch.path() / name, false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
+    std::optional<std::filesystem::path> restart;
+    if (from != nullptr) restart = scratch.path() / from;
+    test::runFlow(deck(overrides), scratch.path() / name, restart);
   };
   run("found", {steady, "time.first_step=1 ms", "time.maximum_step=1 ms", "checkpoint.at_end=true"});
   const Hdf5Reader found(scratch.path() / "found/results.h5");
@@ -235,10 +219,7 @@ TEST(SteadyMode, GoesOnFromACheckpointAsIfItHadNotStopped) {
 
 // A hot spot in nitrogen, far from where hydrogen and air come in and meet: it lights nothing.
 Deck hydrogenBesideAir(const std::vector<std::string>& overrides) {
-  return Deck::parse(
-      "problem: flow\n"
-      "mechanism: " +
-          test::sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml") + "\n" + R"deck(
+  return test::flowDeck("hydrogen_h2o2_10.yaml", R"deck(
 mesh: {geometry: planar, x: [{to: 8 mm, cells: 8}], y: [{to: 12 mm, cells: 8}]}
 boundaries:
   fuel: {type: inlet, side: y-min, to: 4 mm, velocity: 30 cm/s, temperature: 298 K, composition: "H2: 0.3, N2: 0.7"}
@@ -249,15 +230,7 @@ boundaries:
 initial: {layer: none, composition: "N2: 1", temperature: 298 K, formula: {temperature: "298 + 900*exp(-((y-0.011)/0.001)^2)"}}
 time: {mode: steady, steady: {steps: 40, residual: 1e-4}}
 )deck",
-      "hydrogen.yaml", overrides, flowSchema());
-}
-
-RunRecord runHydrogen(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
-  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(hydrogenBesideAir(overrides)));
-  loop.run(RunFolder::prepare(path, false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
-  RunRecord record;
-  loop.report(1.0, record);
-  return record;
+                        overrides);
 }
 
 TEST(SteadyMode, LightsAFlameThatTheStartHasNotLit) {
@@ -265,14 +238,15 @@ TEST(SteadyMode, LightsAFlameThatTheStartHasNotLit) {
   const auto hottest = [&](const char* run) {
     return std::ranges::max(lastOf(Hdf5Reader(scratch.path() / run / "results.h5"), "temperature"));
   };
-  EXPECT_THAT(runHydrogen(scratch.path() / "lit", {}).resultsJson, HasSubstr("\"times_lit\": 1"));
+  EXPECT_THAT(test::runFlow(hydrogenBesideAir({}), scratch.path() / "lit").resultsJson, HasSubstr("\"times_lit\": 1"));
   EXPECT_GT(hottest("lit"), 1200.0);
-  EXPECT_THAT(runHydrogen(scratch.path() / "dark", {"time.steady.light=false"}).resultsJson,
+  EXPECT_THAT(test::runFlow(hydrogenBesideAir({"time.steady.light=false"}), scratch.path() / "dark").resultsJson,
               HasSubstr("\"times_lit\": 0"));
   EXPECT_LT(hottest("dark"), 310.0);
   // A start without anything hot asks for no flame.
-  EXPECT_THAT(runHydrogen(scratch.path() / "cold", {"initial.formula={temperature: '298'}"}).resultsJson,
-              HasSubstr("\"times_lit\": 0"));
+  EXPECT_THAT(
+      test::runFlow(hydrogenBesideAir({"initial.formula={temperature: '298'}"}), scratch.path() / "cold").resultsJson,
+      HasSubstr("\"times_lit\": 0"));
 }
 
 // Of the steps in time.

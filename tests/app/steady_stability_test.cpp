@@ -2,10 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/flow/flow_loop.hpp"
 #include "core/modules.hpp"
 #include "io/hdf5_reader.hpp"
-#include "tests/app/app_fixture.hpp"
+#include "tests/app/flow_runs.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/shared_scratch.hpp"
 
@@ -20,10 +19,7 @@ constexpr int cells = 12;
 
 // Gas of 300 K between a wall that moves along itself and one at rest.
 Deck betweenWalls(const std::vector<std::string>& overrides) {
-  return Deck::parse(
-      "problem: flow\n"
-      "mechanism: " +
-          test::sourcePath("cases/mechanisms/perfect_gas_1.yaml") + "\n" + R"(
+  return test::flowDeck("perfect_gas_1.yaml", R"(
 mesh: {geometry: planar, x: [{to: 2 mm, cells: 3}], y: [{to: 4 mm, cells: 12}]}
 boundaries:
   low: {type: wall, side: y-min, temperature: 300 K}
@@ -33,7 +29,7 @@ boundaries:
 initial: {layer: none, composition: "GAS: 1", temperature: 300 K}
 time: {mode: steady, steady: {time: 0.1 s, stability: {time: 10 ms}}}
 )",
-      "walls.yaml", overrides, flowSchema());
+                        overrides);
 }
 
 struct Told {
@@ -43,10 +39,7 @@ struct Told {
 };
 
 Told told(const std::filesystem::path& path, const std::vector<std::string>& overrides = {}) {
-  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(betweenWalls(overrides)));
-  loop.run(RunFolder::prepare(path, false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
-  RunRecord record;
-  loop.report(1.0, record);
+  const RunRecord record = test::runFlow(betweenWalls(overrides), path);
   const Hdf5Reader results(path / "results.h5");
   const std::string last = "/steps/" + results.names("/steps").back() + "/";
   Told told{{}, {}, {}, results.numbers(last + "velocity"), record.resultsJson};

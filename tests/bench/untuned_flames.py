@@ -18,66 +18,54 @@ MECHANISMS = pathlib.Path(__file__).resolve().parents[2] / "cases/mechanisms"
 M = {"H2": "hydrogen_h2o2_10", "H2 San Diego": "hydrogen_sandiego_9", "CH4": "methane_drm19_21", "C2H4": "ethylene_bisetti2012_47"}
 AIR = "O2: 0.21, N2: 0.79"
 
-def coflow(name, fuel, mix=None, p=1, uf=0.06, ua=0.12, rf=5, tube=False, gravity=True, air=AIR):
-    mix = mix or f"{fuel}: 1"
-    rim, cells = (0.6, 2) if tube else (0, 0)
-    r = [f"{{to: {rf} mm, cells: 10}}"] + ([f"{{to: {rf + rim} mm, cells: 2}}"] if tube else []) + \
-        [f"{{to: {2 * rf} mm, cells: 7, ratio: 2}}", f"{{to: {3 * rf} mm, cells: 4, ratio: 2}}"]
-    z0 = 3 if tube else 0
-    z = ([f"{{to: {z0} mm, cells: 4}}"] if tube else []) + [f"{{to: {z0 + 4 * rf} mm, cells: 24}}", f"{{to: {z0 + 9 * rf} mm, cells: 14, ratio: 2}}"]
-    solids = f"  solids: {{tube: {{r: [{rf} mm, {rf + rim} mm], z: [0 mm, {z0} mm]}}}}\n" if tube else ""
-    tube_b = "  tube: {type: wall, solid: tube, temperature: 400 K}\n" if tube else ""
+def axisymmetric_burner(name, mechanism, pressure, gravity, r, z, solids, fuel, walls, air_from, ua, air, top, ring, width, more=""):
+    """Fuel from a tube in a coflow of air, lit by a hot ring: `ring` is its place (r, z) in mm, `width` its width; `fuel` what the
+    inlet of fuel has, `walls` the boundaries beside the inlets."""
     return name, f"""problem: flow
-mechanism: {MECHANISMS}/{M[fuel]}.yaml
-pressure: {p} bar
-{'gravity: {z: -9.81 m/s^2}' if gravity else ''}
-mesh:
-  geometry: axisymmetric
-  r: [{', '.join(r)}]
-  z: [{', '.join(z)}]
-{solids}boundaries:
-  fuel: {{type: inlet, side: z-min, to: {rf} mm, velocity: {uf} m/s, temperature: 298 K, composition: "{mix}"}}
-  air: {{type: inlet, side: z-min, from: {rf + rim} mm, velocity: {ua} m/s, temperature: 298 K, composition: "{air}"}}
-{tube_b}  axis: {{type: symmetry, side: r-min}}
-  shroud: {{type: wall, side: r-max, slip: true}}
-  top: {{type: outlet, side: z-max, temperature: 298 K, composition: "{air}"}}
-initial:
-  layer: none
-  composition: "{air}"
-  temperature: 298 K
-  formula: {{temperature: "298 + 1700*exp(-((r-{(rf + rim / 2) / 1000})^2 + (z-{(z0 + 0.6 * rf) / 1000})^2)/{0.6 * rf / 1000}^2)"}}
-time: {{mode: steady}}
-"""
-
-def burner(name, fuel, mix, tube, wall, uf, ua, r, z, radiation=True, gravity=True, air=AIR):
-    """Fuel from a tube of an inner radius and a wall (mm), its flow fully developed, in a plug flow of air, m/s; r and z: the mesh.
-    A hot ring above the rim is to light it."""
-    rim, spot = tube + wall / 2, tube / 2
-    return name, f"""problem: flow
-mechanism: {MECHANISMS}/{M[fuel]}.yaml
-pressure: 1 atm
+mechanism: {MECHANISMS}/{M[mechanism]}.yaml
+pressure: {pressure}
 {'gravity: {z: -9.81 m/s^2}' if gravity else ''}
 mesh:
   geometry: axisymmetric
   r: [{r}]
   z: [{z}]
-boundaries:
-  fuel:
-    {{type: inlet, side: z-min, to: {tube} mm, temperature: 298 K, composition: "{mix}",
-     formula: {{velocity: "2*{uf}*(1 - (r/{tube / 1000})^2)"}}}}
-  rim: {{type: wall, side: z-min, from: {tube} mm, to: {tube + wall} mm, temperature: 298 K}}
-  air: {{type: inlet, side: z-min, from: {tube + wall} mm, velocity: {ua} m/s, temperature: 298 K, composition: "{air}"}}
-  axis: {{type: symmetry, side: r-min}}
-  shield: {{type: wall, side: r-max, slip: true}}
-  top: {{type: outlet, side: z-max, temperature: 298 K, composition: "{AIR}"}}
+{solids}boundaries:
+  fuel: {{type: inlet, side: z-min, {fuel}}}
+  air: {{type: inlet, side: z-min, from: {air_from} mm, velocity: {ua} m/s, temperature: 298 K, composition: "{air}"}}
+{walls}  axis: {{type: symmetry, side: r-min}}
+  shroud: {{type: wall, side: r-max, slip: true}}
+  top: {{type: outlet, side: z-max, temperature: 298 K, composition: "{top}"}}
 initial:
   layer: none
-  composition: "{AIR}"
+  composition: "{top}"
   temperature: 298 K
-  formula: {{temperature: "298 + 1700*exp(-((r-{rim / 1000})^2 + (z-{spot / 1000})^2)/{spot / 1000}^2)"}}
-{'radiation: {model: optically_thin}' if radiation else ''}
-time: {{mode: steady}}
+  formula: {{temperature: "298 + 1700*exp(-((r-{ring[0] / 1000})^2 + (z-{ring[1] / 1000})^2)/{width / 1000}^2)"}}
+{more}time: {{mode: steady}}
 """
+
+
+def coflow(name, fuel, mix=None, p=1, uf=0.06, ua=0.12, rf=5, tube=False, gravity=True):
+    """Plug flows; the tube may reach into the mesh."""
+    mix = mix or f"{fuel}: 1"
+    rim = 0.6 if tube else 0
+    r = ", ".join([f"{{to: {rf} mm, cells: 10}}"] + ([f"{{to: {rf + rim} mm, cells: 2}}"] if tube else []) +
+                  [f"{{to: {2 * rf} mm, cells: 7, ratio: 2}}", f"{{to: {3 * rf} mm, cells: 4, ratio: 2}}"])
+    z0 = 3 if tube else 0
+    z = ", ".join(([f"{{to: {z0} mm, cells: 4}}"] if tube else []) +
+                  [f"{{to: {z0 + 4 * rf} mm, cells: 24}}", f"{{to: {z0 + 9 * rf} mm, cells: 14, ratio: 2}}"])
+    solids = f"  solids: {{tube: {{r: [{rf} mm, {rf + rim} mm], z: [0 mm, {z0} mm]}}}}\n" if tube else ""
+    walls = "  tube: {type: wall, solid: tube, temperature: 400 K}\n" if tube else ""
+    stream = f'to: {rf} mm, velocity: {uf} m/s, temperature: 298 K, composition: "{mix}"'
+    return axisymmetric_burner(name, fuel, f"{p} bar", gravity, r, z, solids, stream, walls, rf + rim, ua, AIR, AIR,
+                               (rf + rim / 2, z0 + 0.6 * rf), 0.6 * rf)
+
+
+def burner(name, fuel, mix, tube, wall, uf, ua, r, z, radiation=True, gravity=True, air=AIR):
+    """A tube of an inner radius and a wall (mm) whose flow is fully developed; r and z: the mesh."""
+    stream = f'to: {tube} mm, temperature: 298 K, composition: "{mix}", formula: {{velocity: "2*{uf}*(1 - (r/{tube / 1000})^2)"}}'
+    rim = f"  rim: {{type: wall, side: z-min, from: {tube} mm, to: {tube + wall} mm, temperature: 298 K}}\n"
+    return axisymmetric_burner(name, fuel, "1 atm", gravity, r, z, "", stream, rim, tube + wall, ua, air, AIR,
+                               (tube + wall / 2, tube / 2), tube / 2, "radiation: {model: optically_thin}\n" if radiation else "")
 
 
 def counterflow(name, fuel, mix=None, p=1, u=0.3, gap=10, air=AIR):

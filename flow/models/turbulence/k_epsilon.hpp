@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "flow/boundaries/wall_law.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
 
 namespace lampblack::flow {
 
 struct KEpsilon {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false, usesWallLaw = true;
-  static constexpr double cMu = 0.09, c2 = 1.92, sigmaK = 1.0, sigmaEpsilon = 1.3;
+  static constexpr double cMu = walllaw::cMu, c2 = 1.92, sigmaK = 1.0, sigmaEpsilon = 1.3;
   double c1 = 1.44;
 
   [[nodiscard]] std::string name() const { return "k_epsilon"; }

@@ -30,7 +30,7 @@ ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std:
       const BoundaryKind kind = conditions[b].kind;
       if (kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet)
         boundary.value = model.freeStream(boundaries[b])[s];
-      const bool isResolved = kind == BoundaryKind::Wall && !conditions[b].slip && !model.usesWallLaw();
+      const bool isResolved = conditions[b].isNoSlipWall() && !model.usesWallLaw();
       boundary.isHeld = kind == BoundaryKind::Inlet || isResolved;
       block.scalars[s].boundaries.push_back(boundary);
     }

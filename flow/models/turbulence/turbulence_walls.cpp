@@ -11,8 +11,7 @@
 namespace lampblack::flow {
 
 bool TurbulenceOperator::isSticky(int face) const {
-  const BoundaryCondition& boundary = context_.boundaryOf(face);
-  return boundary.kind == BoundaryKind::Wall && !boundary.slip;
+  return context_.boundaryOf(face).isNoSlipWall();
 }
 
 // 1/s, one-sided: along the wall, of the gas beside it.
