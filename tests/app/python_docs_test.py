@@ -21,6 +21,7 @@ def main(executable):
     text = page.read_text(encoding="utf-8")
     pieces = [(match.group(1), text[: match.start(1)].count("\n")) for match in re.finditer(r"^```python\n(.*?)^```", text, re.S | re.M)]
     assert len(pieces) >= 6, "the page has lost its pieces"
+    running.load_plots()
     os.environ.update(running.environment(), LAMPBLACK_PROGRAM=os.path.abspath(executable), PYTHONPATH=str(running.SOURCE / "python"))
     sys.path.insert(0, str(running.SOURCE / "python"))
     names = {"cases": str(running.SOURCE / "cases")}

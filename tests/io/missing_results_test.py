@@ -1,6 +1,5 @@
 """What scripts say of results that are missing or damaged: one line with what was expected, and an exit code of 2."""
 
-import concurrent.futures
 import pathlib
 import subprocess
 import sys
@@ -13,6 +12,9 @@ except ImportError:
     sys.exit(77)
 
 SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS.parent / "tests/app"))
+import running  # noqa: E402
+
 PYTHON = SCRIPTS.parent / "python"
 # Each with what follows the folder of results, and what it is to say where there is no such folder.
 MEASURED = SCRIPTS.parent / "cases/reactor/psr_pfr_ethylene/reference/psd_exit.csv"
@@ -35,13 +37,19 @@ def main():
         (damaged / "results.h5").write_text("no HDF5 file", encoding="utf-8")
         (damaged / "study.csv").write_text("run,status\nnone,done\n", encoding="utf-8")
 
-        def problem(task):
-            (script, more, expected), folder = task
+        def as_users_start_it(script, folder, *more):
             done = subprocess.run([SCRIPTS / script, folder, *more], capture_output=True, text=True, check=False, cwd=name)
-            told = done.stderr.splitlines()
-            good = (done.returncode == 2 and done.stdout == "" and len(told) == 1 and str(folder) in told[0]
+            return running.Result(done.returncode, done.stdout, done.stderr)
+
+        def in_a_copy_of_this_process(script, folder, *more):
+            return running.script(SCRIPTS / script, folder, *more)
+
+        def problem(script, more, expected, folder, start):
+            done = start(script, folder, *more)
+            told = done.err.splitlines()
+            good = (done.code == 2 and done.out == "" and len(told) == 1 and str(folder) in told[0]
                     and (folder == damaged or expected in told[0]))
-            print(f"{'ok' if good else 'FAILED':8}{script}, {folder.name}: {done.returncode} {done.stderr.strip()}")
+            print(f"{'ok' if good else 'FAILED':8}{script}, {folder.name}: {done.code} {done.err.strip()}")
             return not good
 
         def crash():
@@ -55,8 +63,9 @@ def main():
         script = "import os, sys; from lampblack.damage import guarded; sys.exit(guarded(lambda: os.kill(os.getpid(), 9)))"
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, cwd=PYTHON)
         assert (done.returncode, done.stderr) == (-9, ""), done  # not the file's fault
-        with concurrent.futures.ThreadPoolExecutor(2) as pool:
-            return 1 if any(list(pool.map(problem, [(c, folder) for c in COMMANDS for folder in (missing, damaged)]))) else 0
+        failed = [problem(*COMMANDS[-1], folder, as_users_start_it) for folder in (missing, damaged)]
+        failed += [problem(*command, folder, in_a_copy_of_this_process) for command in COMMANDS for folder in (missing, damaged)]
+        return 1 if any(failed) else 0
 
 
 sys.exit(main())

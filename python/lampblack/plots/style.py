@@ -4,7 +4,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402  (the backend has to be chosen first)
-from matplotlib.animation import FuncAnimation, PillowWriter  # noqa: E402
+import numpy as np  # noqa: E402
+from PIL import Image  # noqa: E402  (without Pillow there is no matplotlib)
 
 plt.rcParams.update(
     {
@@ -39,12 +40,17 @@ class Pictures:
         self.made.append(path)
 
     def film(self, figure, name, frame, count, per_second=4):
-        """An animated GIF; frame(i) draws into the figure. Its writer needs Pillow, without which there is no matplotlib."""
+        """An animated GIF; frame(i) draws into the figure."""
         self.folder.mkdir(parents=True, exist_ok=True)
         path = self.folder / f"{name}.gif"
         temporary = self.folder / f".{name}.gif"
-        film = FuncAnimation(figure, frame, frames=count, init_func=lambda: None)
-        film.save(temporary, writer=PillowWriter(fps=per_second), dpi=90)
+        figure.set_dpi(90)
+        frames = []
+        for i in range(count):
+            frame(i)
+            figure.canvas.draw()
+            frames.append(Image.fromarray(np.asarray(figure.canvas.buffer_rgba())).convert("RGB"))
+        frames[0].save(temporary, format="GIF", save_all=True, append_images=frames[1:], duration=round(1000 / per_second), loop=0)
         temporary.replace(path)
         plt.close(figure)
         self.made.append(path)
