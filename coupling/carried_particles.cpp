@@ -13,8 +13,11 @@ CarriedParticles::CarriedParticles(const Mechanism& mechanism, std::unique_ptr<P
   for (const ParticleScalar& scalar : model_->scalars()) {
     std::vector<double> elements(mechanism.numElements(), 0.0);
     for (const ElementMass& part : scalar.elements) elements[mechanism.elementIndex(part.element)] = part.mass;
-    scalars_.push_back(
-        {{scalar.name, scalar.unit, scalar.description}, scalar.scale, model_->thermophoresis(), std::move(elements)});
+    scalars_.push_back({{scalar.name, scalar.unit, scalar.description},
+                        scalar.scale,
+                        model_->thermophoresis(),
+                        std::move(elements),
+                        ParticleModel::smallestShare * scalar.scale});
   }
   exchanged_ = knownSpecies(mechanism, model_->gasSpecies(), "the model needs");
 }

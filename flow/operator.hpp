@@ -107,6 +107,8 @@ class Operator {
   // Columns of the history, and their present values: of the state, or since the last row. Collective.
   [[nodiscard]] virtual std::vector<Quantity> historyColumns() const { return {}; }
   [[nodiscard]] virtual std::vector<double> historyValues(const State&) { return {}; }
+  // NumericsError where the state of the last row of the history is no result of the operator's model. Collective.
+  virtual void checkResult() const {}
   // Text for the line of progress, "fv 0.1 ppm", of the last row of the history; may be empty.
   [[nodiscard]] virtual std::string status() const { return {}; }
   // Lines of the closing report, of the last row of the history.

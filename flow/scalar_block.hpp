@@ -33,6 +33,8 @@ struct CarriedScalar {
   double wallDiffusivity = 0.0;
   // In the order of FlowContext::boundaries. Empty: nothing comes in with the gas, and nothing passes through walls.
   std::vector<ScalarBoundary> boundaries = {};
+  // Amount per kg of gas below which it counts as nothing where amounts are compared; 0: unknown.
+  double negligible = 0.0;
 };
 
 struct ScalarBlock {

@@ -138,6 +138,11 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   findStability();
   // What fails after the last step takes nothing from the flow: its results are closed first.
   std::exception_ptr failure;
+  try {
+    checkResult();
+  } catch (const NumericsError&) {
+    failure = std::current_exception();
+  }
   for (const auto& stage : closing_) {
     const Timers::Scope scope(timers_, stage->name());
     try {

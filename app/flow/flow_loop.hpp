@@ -170,6 +170,7 @@ class FlowLoop {
   HistoryRow observe();
   // Writes the present state as a row of the history and of its tables.
   HistoryRow writeRow(HistoryWriter& history);
+  void checkResult() const;
   [[nodiscard]] FlowTables::Source tableSource() { return domain_->tableSource(operators_); }
 
   [[nodiscard]] std::string status(const HistoryRow& row) const;

@@ -113,8 +113,13 @@ HistoryRow FlowLoop::observe() {
   return row;
 }
 
+void FlowLoop::checkResult() const {
+  for (const Operator* op : operators_) op->checkResult();
+}
+
 HistoryRow FlowLoop::writeRow(HistoryWriter& history) {
   HistoryRow row = observe();
+  if (!search_) checkResult();  // on its way a search may pass what is none
   history.row(historyValues(row));
   const Timers::Scope scope(timers_, "monitoring");
   tables_->historyRow({steps_, time_}, tableSource());

@@ -29,6 +29,7 @@ class CarriedModel {
     double scale = 1;              // typical amount per kg of gas: the flame's unknown is amount per kg over this
     double thermophoresis = 0;     // V = -thermophoresis (mu/rho) grad T / T
     std::vector<double> elements;  // kg of each element of the mechanism per unit
+    double negligible = 0;         // amount per kg of gas that counts as nothing; 0: unknown
   };
 
   virtual ~CarriedModel() = default;

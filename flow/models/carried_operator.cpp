@@ -39,9 +39,11 @@ ParticleGas gasOfCell(const FlowContext& context, const State& state, int cell, 
 
 ScalarBlock CarriedOperator::blockOf(const CarriedModel& model, const std::vector<BoundaryCondition>& boundaries) {
   ScalarBlock block{model.material(), {}};
-  for (const CarriedModel::Scalar& scalar : model.scalars())
+  for (const CarriedModel::Scalar& scalar : model.scalars()) {
     block.scalars.push_back({model.material() + "_" + scalar.density.name, scalar.density.unit,
                              scalar.density.description + ", per volume", scalar.thermophoresis});
+    block.scalars.back().negligible = scalar.negligible;
+  }
   return takenByWalls(std::move(block), boundaries);
 }
 
@@ -149,7 +151,6 @@ void CarriedOperator::rest(State& state, int cell, double dt) {
 
 void CarriedOperator::advance(State& state, double time, double dt) {
   const Mesh& m = context_.mesh;
-  lastStep_ = dt;
   work_.beginStep();
   std::vector<BusyCell> busy;
   std::vector<SharedCellWork::Item> items;
@@ -178,16 +179,6 @@ void CarriedOperator::advance(State& state, double time, double dt) {
   state.updateHalo(context_.halo);
 }
 
-// Of the last step's rates, that transport is told: no more than would take half of what there is of each scalar in
-// such a step, as the flow may carry away the other half. Where particles burn faster than that, transport knows it in
-// part.
-double CarriedOperator::shareForTransport(std::span<const double> present, const double* rate) const {
-  double share = 1.0;
-  for (std::size_t s = 0; s < scalars_; ++s)
-    if (rate[s] < 0.0) share = std::min(share, std::max(present[s], 0.0) / (-2.0 * lastStep_ * rate[s]));
-  return share;
-}
-
 void CarriedOperator::endStep(State& state) {
   work_.endStep();
   for (int c = 0; c < context_.mesh.owned; ++c) valuesOf(state, c, {&before_[at(c, values_.size())], values_.size()});
@@ -198,10 +189,7 @@ void CarriedOperator::endSweep(State& state) {
   const auto W = context_.mechanism.molecularWeights();
   const std::size_t n = values_.size();
   for (int c = 0; c < context_.mesh.owned; ++c) {
-    double* rate = &rate_[at(c, n)];
-    const double share = shareForTransport(densities(std::as_const(state), c), rate);
-    for (std::size_t i = 0; i < n; ++i) rate[i] *= share;
-    heat_[c] *= share;
+    const double* rate = &rate_[at(c, n)];
     for (std::size_t s = 0; s < scalars_; ++s)
       state.balance.carried[at(c, state.scalars.size()) + first_ + s] += rate[s];
     for (std::size_t i = 0; i < species.size(); ++i)
@@ -264,7 +252,6 @@ void CarriedOperator::setDiffusivities(State& state) {
 }
 
 void CarriedOperator::saveOrLoad(StateArchive& archive) {
-  if (archive.loading()) lastStep_ = 0.0;  // the rates are what endSweep() left
   work_.saveOrLoad(archive);
   archive.cells("carried_rate", rate_, static_cast<int>(values_.size()));
   archive.cells("carried_heat", heat_, 1);

@@ -33,8 +33,8 @@ class CarriedOperator : public Operator {
  public:
   struct Options {
     bool shareWork = true;
-    // Largest volume fraction in particles that cannot grow over the largest of all; more is a NumericsError, when a
-    // row of the history is due, which ends with `advice`.
+    // Largest volume fraction in particles that cannot grow over the largest of all; more is a NumericsError of
+    // checkResult(), which ends with `advice`.
     double allowedAtLimit = 1.0;
     std::string advice;
   };
@@ -57,6 +57,7 @@ class CarriedOperator : public Operator {
 
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  void checkResult() const override;
   [[nodiscard]] std::string status() const override;
   [[nodiscard]] std::vector<std::string> closingLines() const override;
   [[nodiscard]] std::optional<Imbalance> imbalance() const override { return work_.imbalance(); }
@@ -86,7 +87,6 @@ class CarriedOperator : public Operator {
   // Gives the cell the values `after` in place of those it has.
   void take(State& state, int cell, double dt, std::span<const double> after);
   void rest(State& state, int cell, double dt);
-  [[nodiscard]] double shareForTransport(std::span<const double> present, const double* rate) const;
   void setDiffusivities(State& state, int cell, double viscosity);
 
   const FlowContext& context_;
@@ -97,10 +97,9 @@ class CarriedOperator : public Operator {
   // Of each owned cell: its values at the end of the last step; their mean rates by the particles in it, and
   // the power that these gave to the gas, W/m3.
   std::vector<double> before_, rate_, heat_;
-  double lastStep_ = 0.0;  // s
-  long steps_ = 0;         // since the start, on this rank
+  long steps_ = 0;  // since the start, on this rank
   // Of the last row.
-  double peak_ = 0.0;
+  double peak_ = 0.0, partAtLimit_ = 0.0;
   Vector3 place_{};
   GasExchange exchange_;
   std::vector<double> values_, concentrations_, enthalpy_, slope_;

@@ -28,13 +28,16 @@ std::vector<double> CarriedOperator::historyValues(const State& state) {
   auto steps = static_cast<double>(steps_);
   MPI_Allreduce(MPI_IN_PLACE, &steps, 1, MPI_DOUBLE, MPI_SUM, m.comm);
   peak_ = peak.value;
-  const double part = peak_ > 0.0 ? atLimit / peak_ : 0.0;
-  if (part > options_.allowedAtLimit)
-    raiseTogether(m.comm,
-                  NumericsError(fmt::format("a fraction {:.2g} of the largest volume fraction of {} is in the largest "
-                                            "particles of the model; the limit is {:.2g}. {}",
-                                            part, model_.material(), options_.allowedAtLimit, options_.advice)));
-  return {peak_, part, steps};
+  partAtLimit_ = peak_ > 0.0 ? atLimit / peak_ : 0.0;
+  return {peak_, partAtLimit_, steps};
+}
+
+void CarriedOperator::checkResult() const {
+  if (partAtLimit_ <= options_.allowedAtLimit) return;
+  raiseTogether(context_.mesh.comm,
+                NumericsError(fmt::format("a fraction {:.2g} of the largest volume fraction of {} is in the largest "
+                                          "particles of the model; the limit is {:.2g}. {}",
+                                          partAtLimit_, model_.material(), options_.allowedAtLimit, options_.advice)));
 }
 
 std::string CarriedOperator::status() const {

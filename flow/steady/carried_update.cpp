@@ -43,8 +43,10 @@ void CarriedUpdate::findScales(const State& state) {
     for (std::size_t s = 0; s < n_; ++s)
       scales_[s] = std::max(scales_[s], std::abs(state.carried[c * n_ + s]) / state.density[c]);
   MPI_Allreduce(MPI_IN_PLACE, scales_.data(), static_cast<int>(n_), MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
-  for (double& scale : scales_)
-    if (scale <= 0.0) scale = 1.0;
+  for (std::size_t s = 0; s < n_; ++s) {
+    scales_[s] = std::max(scales_[s], state.scalars[s].negligible);
+    if (scales_[s] <= 0.0) scales_[s] = 1.0;
+  }
 }
 
 void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia) {

@@ -38,7 +38,9 @@ class CarriedUpdate {
   std::vector<Operator*> operators_;
   std::size_t n_;
   BlockSystem system_;
-  std::vector<double> scales_;  // largest amount per kg of gas, of each scalar: the unit of the linear system
+  // Largest amount per kg of gas of each scalar, at least what counts as nothing: the unit of the linear system.
+  // Sections that nothing has reached yet would else have to keep to traces.
+  std::vector<double> scales_;
   std::vector<double> slopes_;  // Operator::Slopes::carried
   std::vector<double> right_, change_, conductance_, flux_;
   // Owned cells: amounts per kg and their rates (per m3 and s) that the change begins with; the share of it that is
