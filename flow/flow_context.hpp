@@ -39,6 +39,7 @@ struct FlowContext {
   TransportModel transportModel{};                    // `transport` has its averaged() options
   std::vector<double> wallDistance{};                 // m, of the owned cells; empty where nobody asks
   EddyNumbers eddies{};
+  double load = 1.0;  // factor on the velocities that inlets are given
 
   [[nodiscard]] const BoundaryCondition& boundaryOf(int face) const {
     return boundaries[mesh.patch[face - mesh.interiorFaces]];
@@ -46,7 +47,7 @@ struct FlowContext {
   // What a boundary face has, now where it varies.
   [[nodiscard]] double boundarySpeed(int face) const {  // m/s, into the domain
     const BoundaryValues::Face* values = varyingAt(face);
-    return values ? values->speed : boundaryOf(face).speed;
+    return loadAt(face) * (values ? values->speed : boundaryOf(face).speed);
   }
   [[nodiscard]] double boundaryTemperature(int face) const {  // K
     const BoundaryValues::Face* values = varyingAt(face);
@@ -85,13 +86,15 @@ struct FlowContext {
   [[nodiscard]] std::array<double, 2> boundaryVelocity(int face) const {
     const BoundaryValues::Face* values = varyingAt(face);
     const BoundaryCondition& boundary = boundaryOf(face);
-    return values ? std::array{values->speedOfMomentum, values->tangential}
-                  : std::array{boundary.speed, boundary.tangential};
+    const double factor = loadAt(face);
+    return values ? std::array{factor * values->speedOfMomentum, factor * values->tangential}
+                  : std::array{factor * boundary.speed, factor * boundary.tangential};
   }
   [[nodiscard]] double boundarySwirl(int face) const {  // m/s, what the swirl meets
     const BoundaryValues::Face* values = varyingAt(face);
-    return values ? values->swirl : boundaryOf(face).swirl;
+    return loadAt(face) * (values ? values->swirl : boundaryOf(face).swirl);
   }
+  [[nodiscard]] double loadAt(int face) const { return boundaryOf(face).kind == BoundaryKind::Inlet ? load : 1.0; }
   // N/m^3, weight less buoyancy of gas of that density, along an axis or a direction.
   [[nodiscard]] double bodyForce(double density, int axis) const {
     return (density - referenceDensity) * gravity[static_cast<std::size_t>(axis)];

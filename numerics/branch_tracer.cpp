@@ -8,6 +8,24 @@
 #include "core/errors.hpp"
 
 namespace lampblack::numerics {
+namespace {
+
+// Where load = from.load + slope s + curvature s^2, with s the arc length from there, turns.
+TurningPoint vertex(std::size_t index, const BranchPoint& from, double slope, double curvature) {
+  const double s = -0.5 * slope / curvature;
+  return {index, from.load + 0.5 * slope * s, from.arcLength + s, curvature < 0};
+}
+
+}  // namespace
+
+std::optional<TurningPoint> turningPointOf(std::size_t index, const BranchPoint& a, const BranchPoint& b,
+                                           const BranchPoint& c) {
+  const double before = (b.load - a.load) / (b.arcLength - a.arcLength);
+  const double after = (c.load - b.load) / (c.arcLength - b.arcLength);
+  if (before * after >= 0) return std::nullopt;
+  const double curvature = (after - before) / (c.arcLength - a.arcLength);
+  return vertex(index, a, before - curvature * (b.arcLength - a.arcLength), curvature);
+}
 
 BranchTracer::BranchTracer(LoadedSystem& system, ContinuationOptions options)
     : system_(system), options_(options), solver_(options.newton), step_(options.firstStep) {}
@@ -155,22 +173,12 @@ void BranchTracer::findTurningPoint() {
   const std::size_t last = points_.size() - 1;
   const BranchPoint& b = points_[last - 1];
   const BranchPoint& c = points_[last];
-  const double after = (c.load - b.load) / (c.arcLength - b.arcLength);
-  if (last == 1) {
-    if (firstSlope_ * after < 0) addTurningPoint(0, b, firstSlope_, (after - firstSlope_) / c.arcLength);
+  if (last > 1) {
+    if (const auto turn = turningPointOf(last - 1, points_[last - 2], b, c)) turningPoints_.push_back(*turn);
     return;
   }
-  const BranchPoint& a = points_[last - 2];
-  const double before = (b.load - a.load) / (b.arcLength - a.arcLength);
-  if (before * after >= 0) return;
-  const double curvature = (after - before) / (c.arcLength - a.arcLength);
-  addTurningPoint(last - 1, a, before - curvature * (b.arcLength - a.arcLength), curvature);
-}
-
-// load = from.load + slope s + curvature s^2 with s from there.
-void BranchTracer::addTurningPoint(std::size_t index, const BranchPoint& from, double slope, double curvature) {
-  const double s = -0.5 * slope / curvature;
-  turningPoints_.push_back({index, from.load + 0.5 * slope * s, from.arcLength + s, curvature < 0});
+  const double after = (c.load - b.load) / (c.arcLength - b.arcLength);
+  if (firstSlope_ * after < 0) turningPoints_.push_back(vertex(0, b, firstSlope_, (after - firstSlope_) / c.arcLength));
 }
 
 }  // namespace lampblack::numerics

@@ -8,6 +8,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ struct TurningPoint {
   double load = 0, arcLength = 0;
   bool highest = true;  // of the load: extinction; otherwise ignition
 };
+
+// Where the load turns between the last three points of a branch, b being number `index`; nothing where it goes on.
+[[nodiscard]] std::optional<TurningPoint> turningPointOf(std::size_t index, const BranchPoint& a, const BranchPoint& b,
+                                                         const BranchPoint& c);
 
 class BranchTracer {
  public:
@@ -76,7 +81,6 @@ class BranchTracer {
   // constraint (or the load).
   void findTangent(double sign);
   void findTurningPoint();
-  void addTurningPoint(std::size_t index, const BranchPoint& from, double slope, double curvature);
 
   LoadedSystem& system_;
   ContinuationOptions options_;

@@ -37,6 +37,7 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, const RunFolder&
                           earlier);
       flowCase.trajectories.reset();
       flowCase.time.search->stability.reset();
+      flowCase.time.search->branch.reset();
       flowCase.output.tables = {};
     });
     const RunFolder own = RunFolder::prepare(folder.path() / fmt::format("coarser_{}", level), true, comm);

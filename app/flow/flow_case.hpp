@@ -22,6 +22,7 @@
 #include "flow/models/reaction_operator.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
 #include "flow/properties/transport_model.hpp"
+#include "flow/steady/flow_branch.hpp"
 #include "flow/steady/leading_modes.hpp"
 #include "flow/steady/steadiness.hpp"
 #include "flow/steady/steady_search.hpp"
@@ -62,6 +63,7 @@ struct TimeControl {
     int coarserMeshes = 0;            // on which the state is sought first
     bool lights = true;               // what was lit by the start and does not burn once the steps in time are over
     std::optional<Stability> stability = {};
+    std::optional<FlowBranch::Options> branch = {};  // of steady states, from the one that was found
   };
   std::optional<Search> search;
 

@@ -136,6 +136,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   }
   if (last_.step != steps_) observe();  // a restart at the very end
   findStability();
+  followBranch(outputs);
   // What fails after the last step takes nothing from the flow: its results are closed first.
   std::exception_ptr failure;
   try {
@@ -155,6 +156,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
   history.writeTo(results);
   tables_->writeTo(results);
   writeStability(results);
+  writeBranch(results);
   results.close();
   if (failure) std::rethrow_exception(failure);
 }

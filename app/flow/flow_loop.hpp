@@ -27,6 +27,7 @@
 #include "core/timers.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/peak.hpp"
+#include "flow/steady/flow_branch.hpp"
 #include "flow/steady/leading_modes.hpp"
 #include "flow/steady/residual_norms.hpp"
 #include "flow/steady/steadiness.hpp"
@@ -138,6 +139,11 @@ class FlowLoop {
   [[nodiscard]] std::vector<std::string> stabilityLines() const;
   void addStability(JsonWriter& json) const;
   void writeStability(ResultsWriter& results) const;
+  // Collective. The branch through the steady state that was found, where it is asked for; the flow is then as it was.
+  void followBranch(Outputs& outputs);
+  [[nodiscard]] std::vector<std::string> branchLines() const;
+  void addBranch(JsonWriter& json) const;
+  void writeBranch(ResultsWriter& results) const;
   // Of the search: columns and values of the history, for the closing report.
   [[nodiscard]] std::vector<Quantity> searchColumns() const;
   [[nodiscard]] std::vector<double> searchValues() const;
@@ -217,6 +223,7 @@ class FlowLoop {
     double time = 0.0, step = 0.0;  // s, of a march and of its steps
   };
   std::optional<Stability> stability_;
+  std::optional<FlowBranch> branch_;
   std::unique_ptr<FlowResidual> residual_;      // of the states that steps lead to; made where it is asked for
   std::unique_ptr<SteadyIteration> iteration_;  // while the search iterates
   std::vector<ResidualNorm> norms_;             // of the last state that was evaluated

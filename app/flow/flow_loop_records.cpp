@@ -147,8 +147,8 @@ std::vector<std::string> FlowLoop::steadyLines() const {
   if (holder() != nullptr) return {};
   if (search_) {
     std::vector<std::string> lines = searchLines();
-    const std::vector<std::string> more = stabilityLines();
-    lines.insert(lines.end(), more.begin(), more.end());
+    for (const std::vector<std::string>& more : {stabilityLines(), branchLines()})
+      lines.insert(lines.end(), more.begin(), more.end());
     return lines;
   }
   std::vector<std::string> lines = steadiness_.lines();
@@ -192,6 +192,7 @@ std::string FlowLoop::steadyJson(const std::vector<ResidualNorm>& residual) cons
   json.endObject();
   if (search_) addSearch(json);
   addStability(json);
+  addBranch(json);
   json.endObject();
   return json.text();
 }

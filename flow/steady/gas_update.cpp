@@ -18,18 +18,27 @@ constexpr double kelvins = 1000.0;
 // What an iteration changes in a cell at most.
 constexpr double mostRise = 100.0;      // K
 constexpr double mostOfFraction = 0.1;  // mass fraction of any species
-// No iteration leaves less of a species than this, or than there was; of a species that reacts faster than it is moved
-// not less than this in any case. Rates may not tell one amount below zero from another, and what oxygen below zero
-// would burn grows: traces such as HCO then live where there is no oxygen.
-constexpr double leastFraction = -1e-12;
-constexpr double gasReduction = 0.1;  // of the linear system's residual
+constexpr double gasReduction = 0.1;    // of the linear system's residual
 constexpr int mostGasIterations = 60;
+// The same where the load is an unknown, which is a ratio of what two systems give.
+constexpr double loadedReduction = 0.02;
 
 }  // namespace
 
 void checkTemperature(double temperature) {
   if (!(temperature > Thermo::minTemperature && temperature < Thermo::maxTemperature))
     throw NumericsError(fmt::format("an iteration towards the steady state leads to {:.6g} K", temperature));
+}
+
+void followGas(const FlowContext& context, State& state, int cell) {
+  const auto c = static_cast<std::size_t>(cell), n = static_cast<std::size_t>(state.species);
+  const std::size_t scalars = state.scalars.size();
+  const std::span<const double> Y{&state.Y[c * n], n};
+  const double before = state.density[c];
+  checkTemperature(state.temperature[c]);
+  state.density[c] = context.thermo.density(state.temperature[c], state.thermodynamicPressure, Y);
+  state.enthalpy[c] = context.thermo.enthalpyMass(state.temperature[c], Y);
+  for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
 }
 
 GasUpdate::GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators)
@@ -122,8 +131,8 @@ double GasUpdate::take(State& state, int cell, double& largestRise) {
   for (std::size_t k = 0; k < n_; ++k) {
     const double reacts = -V * slopes[k * (width + 1)], moves = block[k * (width + 1)] - reacts;
     const bool isFast = reacts > moves;
-    const double least = isFast ? leastFraction : std::min(Y[k], leastFraction);
-    Y[k] = std::max(std::max(Y[k], isFast ? leastFraction : Y[k]) + share * change[k], least);
+    const double least = isFast ? leastOfSpecies : std::min(Y[k], leastOfSpecies);
+    Y[k] = std::max(std::max(Y[k], isFast ? leastOfSpecies : Y[k]) + share * change[k], least);
     sum += Y[k];
   }
   for (std::size_t k = 0; k < n_; ++k) Y[k] /= sum;
@@ -131,22 +140,58 @@ double GasUpdate::take(State& state, int cell, double& largestRise) {
   return share;
 }
 
-GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
+// As the linear system has it: convection upwind of first order.
+void GasUpdate::assembleLoad(const State& state) {
+  const Mesh& m = context_.mesh;
+  const std::size_t width = n_ + 1;
+  std::ranges::fill(rightOfLoad_, 0.0);
+  const auto bring = [&](int cell, double flow, const double* Y, double temperature) {
+    if (cell >= m.owned) return;
+    const auto c = static_cast<std::size_t>(cell);
+    for (std::size_t k = 0; k < n_; ++k) rightOfLoad_[c * width + k] += flow * (Y[k] - state.Y[c * n_ + k]);
+    rightOfLoad_[c * width + n_] += flow * (temperature - state.temperature[c]) / kelvins;
+  };
+  for (int face = 0; face < m.faces; ++face) {
+    const double flow = state.massFlux[face] / context_.load;
+    const auto low = static_cast<std::size_t>(m.low[face]);
+    if (m.high[face] >= 0) {
+      const auto high = static_cast<std::size_t>(m.high[face]);
+      if (flow > 0.0)
+        bring(m.high[face], flow, &state.Y[low * n_], state.temperature[low]);
+      else
+        bring(m.low[face], -flow, &state.Y[high * n_], state.temperature[high]);
+    } else if (flow < 0.0) {
+      bring(m.low[face], -flow, context_.boundaryY(face).data(), context_.boundaryTemperature(face));
+    }
+  }
+}
+
+double GasUpdate::addLoad(const State& state, const LoadControl& control) {
+  rightOfLoad_.resize(right_.size());
+  changeByLoad_.resize(change_.size());
+  assembleLoad(state);
+  system_.solve(rightOfLoad_, changeByLoad_, loadedReduction, mostGasIterations);
+  const auto rise = [&](const std::vector<double>& change) {
+    return control.weighed([&](std::size_t cell) { return kelvins * change[cell * (n_ + 1) + n_]; });
+  };
+  const double change = control.change(control.left(state) - rise(change_), rise(changeByLoad_));
+  for (std::size_t i = 0; i < change_.size(); ++i) change_[i] += change * changeByLoad_[i];
+  return change;
+}
+
+GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
+                                     const LoadControl* control) {
   const Mesh& m = context_.mesh;
   assemble(state, residual, inertia);
   Result result;
-  result.iterations = system_.solve(right_, change_, gasReduction, mostGasIterations).iterations;
-  const std::size_t scalars = state.scalars.size();
+  const double reduction = control ? loadedReduction : gasReduction;
+  result.iterations = system_.solve(right_, change_, reduction, mostGasIterations).iterations;
+  if (control) result.loadChange = addLoad(state, *control);
   inEachCell(m, [&](int cell) {
     const auto c = static_cast<std::size_t>(cell);
     shares_[c] = take(state, cell, result.largestRise);
     if (shares_[c] < 1.0) ++result.limited;
-    const std::span<const double> Y{&state.Y[c * n_], n_};
-    const double before = state.density[c];
-    checkTemperature(state.temperature[c]);
-    state.density[c] = context_.thermo.density(state.temperature[c], state.thermodynamicPressure, Y);
-    state.enthalpy[c] = context_.thermo.enthalpyMass(state.temperature[c], Y);
-    for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
+    followGas(context_, state, cell);
   });
   MPI_Allreduce(MPI_IN_PLACE, &result.largestRise, 1, MPI_DOUBLE, MPI_MAX, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, &result.limited, 1, MPI_INT64_T, MPI_SUM, m.comm);

@@ -13,11 +13,21 @@
 #include "flow/operator.hpp"
 #include "flow/state.hpp"
 #include "flow/steady/block_system.hpp"
+#include "flow/steady/load_control.hpp"
 
 namespace lampblack::flow {
 
+// No iteration leaves less of a species than this mass fraction, or than there was; of a species that reacts faster
+// than it is moved not less than this in any case. Rates may not tell one amount below zero from another, and what
+// oxygen below zero would burn grows: traces such as HCO then live where there is no oxygen.
+inline constexpr double leastOfSpecies = -1e-12;
+
 // NumericsError for a temperature (K) that no gas has data for.
 void checkTemperature(double temperature);
+
+// Density and enthalpy of an owned cell become those of its temperature and mass fractions; what is carried keeps its
+// amount per mass. NumericsError as above.
+void followGas(const FlowContext& context, State& state, int cell);
 
 class GasUpdate {
  public:
@@ -27,11 +37,14 @@ class GasUpdate {
     int iterations = 0;        // of the linear solver
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose change was limited
+    double loadChange = 0.0;   // that the control asks for, within its limits
   };
   // Collective. The residual is of the state; `inertia` (kg/s, owned cells): mass over the cell's pseudo-time. The
   // state has a new gas of the same pressure then, halo filled; what is carried keeps its amount per mass.
+  // With a control the load is one more unknown, by which all that flows is in proportion; it is not yet changed.
   // NumericsError where there is none.
-  Result advance(State& state, const FlowResidual& residual, std::span<const double> inertia);
+  Result advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
+                 const LoadControl* control = nullptr);
 
   // Of an owned cell, the share that the last advance() took of what the linear system gave.
   [[nodiscard]] std::span<const double> shares() const { return shares_; }
@@ -39,6 +52,10 @@ class GasUpdate {
  private:
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
   void assembleBlock(const State& state, const FlowResidual& residual, int cell);
+  // What a load that is larger by one brings into the cells: the right side for the answer of the gas to it.
+  void assembleLoad(const State& state);
+  // Changes also the load so that its condition holds for the change of all cells; the change of the load.
+  double addLoad(const State& state, const LoadControl& control);
   // The share of the change that was taken.
   double take(State& state, int cell, double& largestRise);
 
@@ -48,6 +65,7 @@ class GasUpdate {
   BlockSystem system_;
   std::vector<double> slopes_;
   std::vector<double> right_, change_, shares_;
+  std::vector<double> rightOfLoad_, changeByLoad_;  // empty until a load is controlled
   std::vector<double> made_, enthalpies_, capacities_;
 };
 

@@ -13,12 +13,16 @@
 #include <utility>
 #include <vector>
 
+#include "flow/steady/steadiness.hpp"
+
 namespace lampblack::flow {
 namespace {
 
 constexpr double noEnd = -std::numeric_limits<double>::infinity();
 // Least ranges, of fields that are the same all over the domain: of the largest temperature; of a mass fraction.
 constexpr double leastRangeOfTemperature = 1e-3, leastRangeOfFraction = 1e-6;
+// Least velocity, of gas at rest: of the length of the domain over the time.
+constexpr double leastVelocityInTime = 1e-3;
 
 // One equation on this rank: what is left in each cell (or face), and what is made of it.
 class Sums {
@@ -29,6 +33,7 @@ class Sums {
   void begin(std::string equation, double scale, double leastRange,
              ResidualNorm::Kind kind = ResidualNorm::Kind::Flow) {
     equations_.push_back({std::move(equation), scale, leastRange, kind});
+    least_.push_back(0.0);
     values_.insert(values_.end(), {0.0, 0.0});
     ends_.insert(ends_.end(), {noEnd, noEnd});
     most_.push_back({0.0, mesh_.rank});
@@ -42,6 +47,8 @@ class Sums {
     places_.back() = place;
   }
   void made(double amount) { values_.back() += amount; }
+  // That is made at least, of all cells.
+  void madeAtLeast(double amount) { least_.back() += amount; }
   void brought(double value) {
     ends_[ends_.size() - 2] = std::max(ends_[ends_.size() - 2], value);
     ends_.back() = std::max(ends_.back(), -value);
@@ -51,6 +58,7 @@ class Sums {
   std::vector<ResidualNorm> finish(double mass) {
     const auto count = static_cast<int>(equations_.size());
     MPI_Allreduce(MPI_IN_PLACE, values_.data(), 2 * count, MPI_DOUBLE, MPI_SUM, mesh_.comm);
+    MPI_Allreduce(MPI_IN_PLACE, least_.data(), count, MPI_DOUBLE, MPI_SUM, mesh_.comm);
     MPI_Allreduce(MPI_IN_PLACE, ends_.data(), 2 * count, MPI_DOUBLE, MPI_MAX, mesh_.comm);
     MPI_Allreduce(MPI_IN_PLACE, most_.data(), count, MPI_DOUBLE_INT, MPI_MAXLOC, mesh_.comm);
     std::vector<double> places;
@@ -61,7 +69,7 @@ class Sums {
     for (std::size_t e = 0; e < equations_.size(); ++e) {
       const Equation& equation = equations_[e];
       const double range = std::max(ends_[2 * e] + ends_[2 * e + 1], equation.leastRange);
-      const double through = mass * range * equation.scale + values_[2 * e + 1];
+      const double through = mass * range * equation.scale + std::max(values_[2 * e + 1], least_[e]);
       const auto relative = [&](double left) { return left > 0.0 ? left / through : 0.0; };
       norms.push_back({equation.kind,
                        equation.name,
@@ -85,6 +93,7 @@ class Sums {
   const Mesh& mesh_;
   std::vector<Equation> equations_;
   std::vector<double> values_;  // what is left, and what is made, of each equation
+  std::vector<double> least_;   // what is made at least
   std::vector<double> ends_;    // of what is brought: the largest, and the least with the other sign
   std::vector<Found> most_;
   std::vector<Vector3> places_;
@@ -98,16 +107,19 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
   const FlowResidual::Rates& rates = residual.rates();
   const std::size_t n = static_cast<std::size_t>(state.species), scalars = state.scalars.size(),
                     d = static_cast<std::size_t>(state.dimension);
-  std::array<double, 2> whole{0.0, 0.0};  // kg, J/K
+  std::array<double, 3> whole{};  // kg, J/K, m^3
   double hottest = 0.0;
   for (int c = 0; c < m.owned; ++c) {
     whole[0] += state.density[c] * m.volume[c];
     whole[1] += state.density[c] * m.volume[c] * residual.properties().heatCapacity[c];
+    whole[2] += m.volume[c];
     hottest = std::max(hottest, state.temperature[c]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, whole.data(), 2, MPI_DOUBLE, MPI_SUM, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, whole.data(), 3, MPI_DOUBLE, MPI_SUM, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, &hottest, 1, MPI_DOUBLE, MPI_MAX, m.comm);
 
+  const bool isKnown = std::isfinite(time) && time > 0.0;
+  const double slow = isKnown ? leastVelocityInTime * lengthOfDomain(m, whole[2]) / time : 0.0;  // m/s
   Sums sums(m);
   const auto forEachCell = [&](auto take) {
     for (int c = 0; c < m.owned; ++c) take(static_cast<std::size_t>(c), m.centre[c]);
@@ -119,8 +131,9 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
     if (m.low[face] >= m.owned) continue;  // another rank has it
     sums.left(rates.massFlux[face], m.faceCentre[face]);
     sums.made(std::abs(state.massFlux[face]));
+    sums.madeAtLeast(slow * m.area[face] * whole[0] / whole[2]);
   }
-  sums.begin("momentum", 1.0, 0.0);
+  sums.begin("momentum", 1.0, slow);
   sums.brought(0.0);
   forEachCell([&](std::size_t c, const Vector3& place) {
     double force = 0.0, speed = 0.0;
@@ -164,7 +177,7 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
       sums.brought(perMass);
     });
   }
-  return sums.finish(std::isfinite(time) && time > 0.0 ? whole[0] / time : 0.0);
+  return sums.finish(isKnown ? whole[0] / time : 0.0);
 }
 
 std::vector<ResidualNorm> worstOfEachKind(const std::vector<ResidualNorm>& norms) {

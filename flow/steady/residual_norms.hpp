@@ -5,8 +5,9 @@
 // domain: mass M = (what is in the domain)/(the time that changes are told for, Steadiness::time()); of a species M
 // times the range of its mass fraction, and what reactions and particles form of it where they do; of heat M times the
 // mean heat capacity times the range of the temperature, and what is radiated; of momentum M times the largest
-// velocity; of what is carried M times its range per mass of gas, and what is made of it. What mass is left over counts
-// in the equation of mass alone.
+// velocity, no less than a thousandth of the domain's length over the time: a gas at rest has a residual too; of what
+// is carried M times its range per mass of gas, and what is made of it. What mass is left over counts in the equation
+// of mass alone.
 #pragma once
 
 #include <string>

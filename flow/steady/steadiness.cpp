@@ -112,10 +112,13 @@ void Steadiness::begin(const State& state, double time) {
   startPiece(state);
 }
 
+double lengthOfDomain(const Mesh& mesh, double volume) {
+  if (mesh.axisymmetric()) return std::cbrt(2.0 * std::numbers::pi * volume);
+  return mesh.dimension == 2 ? std::sqrt(volume) : std::cbrt(volume);
+}
+
 double Steadiness::lengthOfDomain() const {
-  const Mesh& m = context_->mesh;
-  if (m.axisymmetric()) return std::cbrt(2.0 * std::numbers::pi * volume_);
-  return m.dimension == 2 ? std::sqrt(volume_) : std::cbrt(volume_);
+  return flow::lengthOfDomain(context_->mesh, volume_);
 }
 
 double Steadiness::timeOf(const Integrals& sums) const {

@@ -24,6 +24,10 @@
 
 namespace lampblack::flow {
 
+// m, root of the area of a plane domain or third root of the volume, of an axisymmetric one all around; of the volume
+// in m^3 or per metre or radian.
+[[nodiscard]] double lengthOfDomain(const Mesh& mesh, double volume);
+
 class Steadiness {
  public:
   struct Options {

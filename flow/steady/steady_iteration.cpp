@@ -35,10 +35,11 @@ constexpr double mostSlowed = 0.25, catchesUp = 1.5, leastHaste = 1e-4;
 }  // namespace
 
 SteadyIteration::SteadyIteration(const FlowContext& context, const State& state, Options options,
-                                 std::vector<Operator*> operators)
+                                 std::vector<Operator*> operators, LoadControl* control)
     : context_(context),
       options_(options),
       operators_(std::move(operators)),
+      control_(control),
       residual_(context, state, options.scheme, operators_),
       gas_(context, state, operators_),
       flow_(context, state, residual_),
@@ -194,26 +195,21 @@ void SteadyIteration::keepMass(State& state, double mass) const {
 }
 
 void SteadyIteration::accelerate(State& state) {
-  const Mesh& m = context_.mesh;
-  std::vector<double> found = unknownsOf(state);
-  mixing_.mix(unknownsOf(*before_), found, weights(state));
+  std::vector<double> before = unknownsOf(*before_), found = unknownsOf(state), squares = weights(state);
+  if (control_) {
+    before.push_back(loadBefore_);
+    found.push_back(control_->load());
+    squares.push_back(0.0);  // follows from the temperatures
+  }
+  mixing_.mix(before, found, squares);
+  if (control_) control_->setLoad(found.back());
   auto from = found.cbegin();
   for (std::vector<double>* field :
        {&state.Y, &state.temperature, &state.velocity, &state.swirl, &state.pressure, &state.massFlux}) {
     std::copy_n(from, field->size(), field->begin());
     from += static_cast<std::ptrdiff_t>(field->size());
   }
-  const auto n = static_cast<std::size_t>(state.species);
-  const std::size_t scalars = state.scalars.size();
-  inEachCell(m, [&](int cell) {
-    const auto c = static_cast<std::size_t>(cell);
-    const std::span<const double> Y{&state.Y[c * n], n};
-    checkTemperature(state.temperature[c]);
-    const double before = state.density[c];
-    state.density[c] = context_.thermo.density(state.temperature[c], state.thermodynamicPressure, Y);
-    state.enthalpy[c] = context_.thermo.enthalpyMass(state.temperature[c], Y);
-    for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
-  });
+  inEachCell(context_.mesh, [&](int cell) { followGas(context_, state, cell); });
   keepMass(state, massOf(*before_));
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
@@ -234,7 +230,8 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
   const double last = measure_;
   try {
     setInertia(state);
-    const GasUpdate::Result gas = gas_.advance(state, residual_, inertia_);
+    const GasUpdate::Result gas = gas_.advance(state, residual_, inertia_, control_);
+    if (control_) control_->scale(state, control_->load() + gas.loadChange);
     keepMass(state, massOf(*before_));
     outcome.gasIterations = gas.iterations;
     outcome.largestRise = gas.largestRise;
@@ -274,10 +271,12 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
 
 SteadyIteration::Outcome SteadyIteration::iterate(State& state) {
   before_ = state;
+  if (control_) loadBefore_ = control_->load();
   const double last = measure_;
   Outcome outcome = attempt(state);
   if (outcome.taken) return outcome;
   state = *before_;
+  if (control_) control_->setLoad(loadBefore_);
   mixing_.clear();
   isAnew_ = true;
   courant_ = std::max(courant_ * afterFailure, leastCourant);

@@ -18,6 +18,7 @@
 #include "flow/steady/carried_update.hpp"
 #include "flow/steady/flow_update.hpp"
 #include "flow/steady/gas_update.hpp"
+#include "flow/steady/load_control.hpp"
 #include "numerics/anderson_mixing.hpp"
 
 namespace lampblack::flow {
@@ -37,8 +38,10 @@ class SteadyIteration {
   };
 
   // Collective. `operators`: whose rates act in the cells; they have to live as long. The state is evaluated.
+  // `control`: of a load that is an unknown too, with a condition; null: the load is as it is.
   // NumericsError where the gas has no properties or rates.
-  SteadyIteration(const FlowContext& context, const State& state, Options options, std::vector<Operator*> operators);
+  SteadyIteration(const FlowContext& context, const State& state, Options options, std::vector<Operator*> operators,
+                  LoadControl* control = nullptr);
 
   struct Outcome {
     bool taken = false;
@@ -77,6 +80,7 @@ class SteadyIteration {
   const FlowContext& context_;
   Options options_;
   std::vector<Operator*> operators_;
+  LoadControl* control_;
   FlowResidual residual_;
   GasUpdate gas_;
   std::optional<CarriedUpdate> carried_;  // where the flow carries something
@@ -88,6 +92,7 @@ class SteadyIteration {
   std::vector<double> inertia_, carriedInertia_, flowInertia_;  // kg/s, owned cells
   std::vector<double> haste_;                                   // owned cells: of the pseudo-time that others have
   std::optional<State> before_;
+  double loadBefore_ = 1.0;
 };
 
 }  // namespace lampblack::flow

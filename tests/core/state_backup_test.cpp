@@ -91,6 +91,28 @@ TEST(StateBackup, GoesAlongToOtherCellsAndFaces) {
   EXPECT_EQ(owner.cells, (std::vector<double>{3, 4, 20, 21}));
 }
 
+// As a checkpoint has what the step, or the iterations, began with.
+TEST(StateBackup, IsSavedInAnotherArchiveAndFilledFromThere) {
+  Owner owner;
+  const StateBackup::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };
+  StateBackup kept(2, 4), checkpoint(2, 4);
+  const StateBackup::Owners keeper = [&](StateArchive& archive) { kept.saveOrLoad(archive, "begin_"); };
+  kept.save(owners);
+  const Owner before = owner;
+  checkpoint.save(keeper);
+  owner = {{0, 0, 0, 0, 5, 6}, {0, 0, 0, 0}, {0, 0}, {1, 2, 3, 4}, 0};
+  owner.rows = {{1}, {2, 3}, {24}};
+  kept.save(owners);
+  checkpoint.restore(keeper);
+  kept.restore(owners);
+  EXPECT_EQ(owner.cells, before.cells);
+  EXPECT_EQ(owner.faces, before.faces);
+  EXPECT_EQ(owner.sums, before.sums);
+  EXPECT_EQ(owner.shared, before.shared);
+  EXPECT_EQ(owner.number, before.number);
+  EXPECT_EQ(owner.rows, before.rows);
+}
+
 TEST(StateBackup, KnowsOtherPieces) {
   Owner owner;
   const StateBackup::Owners owners = [&](StateArchive& archive) { owner.saveOrLoad(archive); };

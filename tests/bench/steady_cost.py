@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""What an iteration towards a steady state costs: processor time, iterations of the linear solvers, memory and messages over the
+number of cells, of species and of ranks.
+
+Usage: steady_cost.py PROGRAM FOLDER [--cells F...] [--ranks N...] [--mechanisms NAME...] [--count LIBRARY]
+
+A flame of a coflow burner with its default mesh times each of the refinements --cells, with DRM19; and the mechanisms on the mesh
+of refinement 0.8. Each is run twice, 20 steps in time and 5, then 25 iterations from there (which end with exit code 3), and the
+difference counts: what the steps and the set-up take is not in it. Processor time is that of all ranks, user mode, children of
+mpirun included. --count: build/release/tests/bench/libcount_messages.so, which counts messages.
+"""
+
+import argparse
+import math
+import os
+import pathlib
+import re
+import subprocess
+
+MECHANISMS = pathlib.Path(__file__).resolve().parents[2] / "cases/mechanisms"
+SIZES = {"hydrogen_h2o2_10": (10, "H2: 0.5, N2: 0.5"), "methane_drm19_21": (21, "CH4: 1"), "ethylene_bisetti2012_47": (47, "C2H4: 1"),
+         "methane_gri30_53": (53, "CH4: 1"), "ethylene_abf2000_101": (101, "C2H4: 1")}
+FEW, MANY = 5, 25  # iterations
+
+DECK = """problem: flow
+mechanism: {mechanism}
+pressure: 1 atm
+gravity: {{z: -9.81 m/s^2}}
+mesh:
+  geometry: axisymmetric
+  refinement: {refinement}
+  r: [{{to: 5 mm, cells: 14}}, {{to: 10 mm, cells: 10, ratio: 2}}, {{to: 15 mm, cells: 5, ratio: 2}}]
+  z: [{{to: 20 mm, cells: 36}}, {{to: 40 mm, cells: 18, ratio: 2}}]
+boundaries:
+  fuel: {{type: inlet, side: z-min, to: 5 mm, velocity: 6 cm/s, temperature: 298 K, composition: "{fuel}"}}
+  air: {{type: inlet, side: z-min, from: 5 mm, velocity: 12 cm/s, temperature: 298 K, composition: "O2: 0.21, N2: 0.79"}}
+  axis: {{type: symmetry, side: r-min}}
+  shroud: {{type: wall, side: r-max, slip: true}}
+  top: {{type: outlet, side: z-max, temperature: 298 K, composition: "O2: 0.21, N2: 0.79"}}
+initial:
+  layer: none
+  composition: "O2: 0.21, N2: 0.79"
+  temperature: 298 K
+  formula: {{temperature: "298 + 1700*exp(-((r-0.005)^2 + (z-0.003)^2)/0.003^2)"}}
+time: {{mode: steady, steady: {{steps: 20, returns: 0, iterations: {iterations}, residual: 1e-15}}}}
+"""
+
+
+def measure(program, folder, mechanism, refinement, iterations, ranks, library):
+    """user time (s), largest memory of a rank (MiB), iterations of GMRES, calls and bytes by kind of message, cells."""
+    name = f"{mechanism}_{refinement}_{iterations}_{ranks}"
+    deck = folder / f"{name}.yaml"
+    deck.write_text(DECK.format(mechanism=MECHANISMS / f"{mechanism}.yaml", refinement=refinement, fuel=SIZES[mechanism][1],
+                                iterations=iterations), encoding="utf-8")
+    command = [program, "run", str(deck), "--out", str(folder / name), "--force"]
+    environment = dict(os.environ, PETSC_OPTIONS=f"-log_view :{folder / name}.petsc")
+    if library:
+        environment["LD_PRELOAD"] = str(library)
+    if ranks > 1:
+        command = ["mpirun", "--oversubscribe", "-n", str(ranks)] + command
+    with open(folder / f"{name}.log", "w", encoding="utf-8") as log, \
+            subprocess.Popen(command, stdout=log, stderr=log, env=environment) as run:
+        _, status, usage = os.wait4(run.pid, 0)
+        run.returncode = os.waitstatus_to_exitcode(status)
+    text = (folder / f"{name}.log").read_text(encoding="utf-8")
+    if run.returncode != 3 or f"and {iterations} iterations" not in text:
+        raise SystemExit(f"{name}: exit {run.returncode}, expected {iterations} iterations\n{text[-2000:]}")
+    petsc = (folder / f"{name}.petsc").read_text(encoding="utf-8", errors="replace")
+    krylov = sum(int(found) for found in re.findall(r"^KSPGMRESOrthog\s+(\d+)", petsc, re.MULTILINE))
+    messages = {kind: (float(calls), float(size)) for kind, calls, size in
+                re.findall(r"^messages (\w+)\s+(\S+)\s+\S+\s+(\S+)", text, re.MULTILINE)}
+    cells = int(re.search(r"(\d+) cells", text).group(1))
+    return usage.ru_utime, usage.ru_maxrss / 1024, krylov, messages, cells
+
+
+def row(options, mechanism, refinement, ranks):
+    """Prints a row; the number of cells, species, and s an iteration."""
+    few, many = (measure(options.program, options.folder, mechanism, refinement, iterations, ranks, options.count)
+                 for iterations in (FEW, MANY))
+    steps = MANY - FEW
+    seconds, cells, species = (many[0] - few[0]) / steps, many[4], SIZES[mechanism][0]
+    said = ", ".join(f"{kind} {(many[3][kind][0] - few[3].get(kind, (0, 0))[0]) / steps:.0f} "
+                     f"({(many[3][kind][1] - few[3].get(kind, (0, 0))[1]) / steps / 1000:.1f} kB)"
+                     for kind in many[3] if many[3][kind][0] > few[3].get(kind, (0, 0))[0])
+    print(f"| {species} | {cells} | {ranks} | {seconds:.3f} | {1e6 * seconds / cells:.0f} | {(many[2] - few[2]) / steps:.1f} | "
+          f"{many[1]:.0f} | {said} |", flush=True)
+    return cells, species, seconds
+
+
+def exponent(points):
+    """Of y over x, least squares of the logarithms."""
+    logs = [(math.log(x), math.log(y)) for x, y in points]
+    x, y = (sum(pair[i] for pair in logs) / len(logs) for i in (0, 1))
+    return sum((a - x) * (b - y) for a, b in logs) / sum((a - x) ** 2 for a, _ in logs)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("program")
+    parser.add_argument("folder", type=lambda path: pathlib.Path(path).resolve())
+    parser.add_argument("--cells", type=float, nargs="*", default=[0.8, 1.6, 3.2])
+    parser.add_argument("--ranks", type=int, nargs="*", default=[1, 2])
+    parser.add_argument("--mechanisms", nargs="*", default=list(SIZES))
+    parser.add_argument("--count", type=pathlib.Path)
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    print("| species | cells | ranks | s an iteration | us a cell | GMRES iterations | MiB a rank | messages of a rank |")
+    for ranks in options.ranks:
+        sizes = [row(options, "methane_drm19_21", refinement, ranks) for refinement in options.cells]
+        species = [row(options, mechanism, 0.8, ranks) for mechanism in options.mechanisms]
+        if len(sizes) > 1:
+            print(f"{ranks} ranks: exponent of the cells {exponent([(point[0], point[2]) for point in sizes]):.2f}")
+        if len(species) > 1:
+            print(f"{ranks} ranks: exponent of the species {exponent([(point[1], point[2]) for point in species]):.2f}")
+
+
+if __name__ == "__main__":
+    main()
