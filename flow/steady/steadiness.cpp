@@ -16,6 +16,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double piecesOfTime = 4.0;
 // Least scales of fields that are the same all over the domain.
+// Of the mass over the time in which heat is conducted over the domain: less that passes is round-off of a gas at rest.
+constexpr double leastThroughflow = 1e-6;
 constexpr double leastOfValue = 1e-3;     // of the largest value, of a temperature
 constexpr double leastOfVelocity = 1e-3;  // of the length of the domain over the time
 constexpr double leastMassFraction = 1e-6;
@@ -121,9 +123,14 @@ double Steadiness::lengthOfDomain() const {
   return flow::lengthOfDomain(context_->mesh, volume_);
 }
 
+bool Steadiness::hasThroughflow(const Integrals& sums) const {
+  const double length = lengthOfDomain();
+  return sums[Through] > leastThroughflow * sums[Conduction] / (length * length);
+}
+
 double Steadiness::timeOf(const Integrals& sums) const {
   if (options_.time) return *options_.time;
-  if (sums[Through] > 0.0) return sums[Mass] / sums[Through];
+  if (hasThroughflow(sums)) return sums[Mass] / sums[Through];
   const double length = lengthOfDomain();
   double time = infinity;
   if (sums[KineticEnergy] > 0.0) time = length / std::sqrt(2.0 * sums[KineticEnergy] / sums[Mass]);
@@ -141,7 +148,7 @@ Steadiness::Integrals Steadiness::sumsOfPieces() const {
 std::string Steadiness::meaningOfTime() const {
   if (options_.time) return "time.steady.time";
   const Integrals sums = pieces_.empty() ? sums_ : sumsOfPieces();
-  if (sums[Through] > 0.0) return "residence time: what is in the domain over what flows through it";
+  if (hasThroughflow(sums)) return "residence time: what is in the domain over what flows through it";
   const double length = lengthOfDomain();
   return timeOf(sums) * sums[Conduction] < length * length * sums[Mass] * (1.0 - 1e-9)
              ? "the size of the domain over the RMS velocity"

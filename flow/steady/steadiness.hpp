@@ -100,6 +100,7 @@ class Steadiness {
   template <typename Take>
   void forEachValue(const State& state, Take take) const;
   [[nodiscard]] double timeOf(const Integrals& sums) const;
+  [[nodiscard]] bool hasThroughflow(const Integrals& sums) const;
   [[nodiscard]] Integrals sumsOfPieces() const;
   [[nodiscard]] double changeOf(std::size_t field, Norm norm) const;
   void startPiece(const State& state);

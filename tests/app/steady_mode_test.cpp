@@ -217,6 +217,19 @@ TEST(SteadyMode, GoesOnFromACheckpointAsIfItHadNotStopped) {
   expectSameRun(scratch.path() / "iterations on", scratch.path() / "whole");
 }
 
+// Whose velocities and mass fluxes are round-off.
+TEST(SteadyMode, FindsGasAtRest) {
+  const test::SharedScratchFolder scratch;
+  const std::vector<std::string> still{steady, "boundaries.in={type: wall, side: y-min}", "time.steady.returns=0"};
+  for (const char* out : {"boundaries.out={type: outlet, side: y-max, temperature: 300 K, composition: 'GAS: 1'}",
+                          "boundaries.out={type: wall, side: y-max}"}) {
+    std::vector<std::string> settings = still;
+    settings.emplace_back(out);
+    const RunRecord found = runChannel(scratch.path() / (out[22] == 'o' ? "open" : "closed"), settings);
+    EXPECT_THAT(found.resultsJson, AllOf(HasSubstr("\"steady\": true"), HasSubstr("\"found_early\": true"))) << out;
+  }
+}
+
 // A hot spot in nitrogen, far from where hydrogen and air come in and meet: it lights nothing.
 Deck hydrogenBesideAir(const std::vector<std::string>& overrides) {
   return test::flowDeck("hydrogen_h2o2_10.yaml", R"deck(
