@@ -83,6 +83,7 @@ class StochasticProcess final : public Ensemble {
   void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
 
+  static constexpr int birthsOfJump = 4;
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
   // Whether a method collides its particles over a time, and not event by event.
   static constexpr bool drawsPairs = requires(Method method, RandomStream& random) { method.coagulate(1.0, random); };
@@ -236,13 +237,17 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     planNucleus(method_.nucleusWeight());
   };
   if constexpr (drawsPairs) {
-    // All that is born, between two halves of the collisions.
-    if (kernel_) method_.coagulate(0.5 * dt, random_);
-    if (inception > 0) {
-      reached_ += inception * dt;
-      while (reached_ >= nucleusAfter_) nucleate();
+    // Births between two halves of the collisions, several times: few collisions are left for the splitting to reorder.
+    const int times = kernel_ && inception > 0 ? birthsOfJump : 1;
+    const double part = dt / times;
+    if (kernel_) method_.coagulate(0.5 * part, random_);
+    for (int k = 1; k <= times; ++k) {
+      if (inception > 0) {
+        reached_ += inception * part;
+        while (reached_ >= nucleusAfter_) nucleate();
+      }
+      if (kernel_) method_.coagulate(k < times ? part : 0.5 * part, random_);
     }
-    if (kernel_) method_.coagulate(0.5 * dt, random_);
     isChanged = isChanged || kernel_;
   } else {
     jumpByEvents(dt, inception, nucleate, isChanged);
@@ -255,6 +260,9 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     else
       takeChanges(medium, weightBefore, now);
   }
+  // What was born by the rate of a middle that was foreseen becomes the trapezoidal rule's, by those that come next.
+  if (inception > 0 && size() > 0)
+    reached_ += (0.5 * (medium.inception(start.collisions) + medium.inception(now.collisions)) - inception) * dt;
   exchange_.resampledCarbon += now.carbon - start.carbon - nucleatedCarbon;
   exchange_.resampledHydrogen += now.hydrogen - start.hydrogen - nucleatedHydrogen;
   if (nucleated > 0) {
