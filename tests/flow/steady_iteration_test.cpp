@@ -267,7 +267,7 @@ TEST_F(SteadyIterations, ReachWhatIsEmpty) {
   residual.evaluate(state);
   CarriedUpdate update(b.context, state, residual, operators);
   const std::vector<double> inertia(at(b.mesh.owned), 0.0);
-  for (int pass = 0; pass < 20; ++pass) {
+  for (int pass = 0; pass < 14; ++pass) {
     update.advance(state, residual, inertia);
     residual.evaluateCarried(state);
   }
