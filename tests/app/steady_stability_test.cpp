@@ -1,7 +1,10 @@
 // Whether a steady state lasts: disturbances of a gas between two walls, which are known exactly.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "app/flow/disturbed_flow.hpp"
+#include "app/flow/flow_mesh.hpp"
 #include "core/modules.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/flow_runs.hpp"
@@ -96,6 +99,30 @@ TEST(SteadyStability, TellsTheRatesAtWhichMomentumAndHeatGoToTheWalls) {
   EXPECT_EQ(without.velocity, found.velocity);
   EXPECT_THAT(without.json, testing::Not(HasSubstr("stability")));
   EXPECT_TRUE(without.rates.empty());
+}
+
+// The same bits again, whatever was marched in between; and all that flows is part of what is marched.
+TEST(SteadyStability, MarchesFromWhatItIsGiven) {
+  FlowCase flowCase = readFlowCase(betweenWalls({"initial.formula={velocity_x: '25*y'}"}));
+  const Thermo thermo(*flowCase.mechanism);
+  Transport transport(*flowCase.mechanism, flowCase.transport.averaged());
+  FlowDomain domain(makeMesh(MPI_COMM_WORLD, flowCase), flowCase, thermo, transport, flowCase.chemistry);
+  domain.setStart(flowCase);
+  domain.beginBudget(flowCase);
+  DisturbedFlow disturbed(domain, flowCase, thermo, transport, 1e-3, 1e-3);
+  const MarchedFlow marched = disturbed.marched();
+  const std::vector<double>& flux = domain.state.massFlux;
+  const auto isClose = [](double a, double b) { return std::abs(a - b) <= 1e-3 * std::abs(b) + 1e-12; };
+  ASSERT_GT(std::ranges::max(flux), 1e-5);
+  EXPECT_NE(std::search(marched.state.begin(), marched.state.end(), flux.begin(), flux.end(), isClose),
+            marched.state.end());
+  std::vector<double> first = marched.state, second = first, other = first;
+  marched.march(first);
+  for (double& value : other) value *= 1.001;
+  marched.march(other);
+  marched.march(second);
+  EXPECT_EQ(first, second);
+  EXPECT_NE(first, other);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "flow/burnt_mixture.hpp"
 #include "flow_fixture.hpp"
 
 namespace lampblack::test {
@@ -68,6 +69,41 @@ TEST_F(Lighting, KeepsTheEnthalpyBelowTheLimit) {
   for (int c = 0; c < box.mesh.cells; ++c) {  // beside other ranks, too
     EXPECT_NEAR(state.temperature[at(c)], 1643.0, 60.0);
     EXPECT_NEAR(state.enthalpy[at(c)], gas.thermo.enthalpyMass(300.0, lean), 1.0);
+  }
+}
+
+// In mol for each of methane: with all the oxygen it could need, with what burns half of the CO, and with half of what
+// CO and H2O take.
+TEST(BurntMixture, MakesWaterThenCarbonMonoxideThenDioxide) {
+  const Mechanism mechanism = Mechanism::fromFile(sourcePath("cases/mechanisms/methane_drm19_21.yaml"));
+  const Thermo thermo(mechanism);
+  BurntMixture burnt(mechanism, thermo);
+  struct Expected {
+    double oxygen, fuel, water, monoxide, dioxide, left;
+  };
+  for (const Expected& e : {Expected{3.0, 0.0, 2.0, 0.0, 1.0, 1.0}, Expected{1.75, 0.0, 2.0, 0.5, 0.5, 0.0},
+                            Expected{0.75, 0.5, 1.0, 0.5, 0.0, 0.0}}) {
+    std::vector<double> Y(mechanism.numSpecies());
+    const auto X = parseComposition(mechanism, fmt::format("CH4: 1, O2: {}, N2: 20", e.oxygen));
+    thermo.moleToMass(X, Y);
+    const double enthalpy = thermo.enthalpyMass(300.0, Y);
+    const double perMethane =
+        Y[mechanism.speciesIndex("CH4")] / mechanism.molecularWeights()[mechanism.speciesIndex("CH4")];
+    const double T = burnt.burn(enthalpy, 101325.0, 3000.0, Y);
+    const auto amount = [&](const char* name) {
+      const std::size_t k = mechanism.speciesIndex(name);
+      return Y[k] / mechanism.molecularWeights()[k] / perMethane;
+    };
+    EXPECT_NEAR(amount("CH4"), e.fuel, 1e-9);
+    EXPECT_NEAR(amount("H2O"), 0.97 * e.water, 1e-9);
+    EXPECT_NEAR(amount("H"), 0.03 * e.water, 1e-9);
+    EXPECT_NEAR(amount("OH"), 0.03 * e.water, 1e-9);
+    EXPECT_NEAR(amount("CO"), e.monoxide, 1e-9);
+    EXPECT_NEAR(amount("CO2"), e.dioxide, 1e-9);
+    EXPECT_NEAR(amount("O2"), e.left, 1e-9);
+    EXPECT_NEAR(amount("N2"), 20.0, 1e-6);
+    EXPECT_NEAR(thermo.enthalpyMass(T, Y), enthalpy, 1e-3);
+    EXPECT_EQ(burnt.burn(enthalpy, 101325.0, 600.0, Y), 600.0) << "no hotter than that";
   }
 }
 
