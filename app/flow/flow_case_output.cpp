@@ -118,7 +118,7 @@ void addOutputKeys(DeckSchema& schema) {
                      "Boundaries of which mass flow, heat, forces and what walls take of the particles are written "
                      "with each row of the history, to the tables tables/boundary_<name>.csv, in whose names a "
                      "character that is no letter, digit, _, - or + becomes _; 'all': all but periodic ones. With each "
-                     "field output tables/wall_<name>.csv has friction, heat flux and distance from the wall of each "
+                     "field output tables/wall_<name>.csv has friction, heat flux and y+ of each "
                      "face of a wall without slip, tables/deposit_<name>.csv what each face of a wall that takes "
                      "particles has taken.")
                .list()
