@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""What an iteration towards a steady state costs: processor time, iterations of the linear solvers, memory and messages over the
-number of cells, of species and of ranks.
+"""What an iteration towards a steady state costs: processor time, iterations of the linear solvers and memory over the number of
+cells, of species and of ranks.
 
-Usage: steady_cost.py PROGRAM FOLDER [--cells F...] [--ranks N...] [--mechanisms NAME...] [--count LIBRARY]
+Usage: steady_cost.py PROGRAM FOLDER [--cells F...] [--ranks N...] [--mechanisms NAME...]
 
 A counterflow flame on a mesh of 750 cells times each of the refinements --cells, with DRM19; and the mechanisms on the mesh of
 refinement 1.15. Each is run twice, 20 steps in time and 5, then 25 iterations from there (which end with exit code 3), and the
 difference counts: what the steps and the set-up take is not in it. Processor time is that of all ranks, user mode, children of
-mpirun included. --count: build/release/tests/bench/libcount_messages.so, which counts messages.
+mpirun included; ranks that wait for each other take some too, so that those of several ranks mean nothing on a busy machine.
 """
 
 import argparse
@@ -43,16 +43,14 @@ time: {{mode: steady, steady: {{steps: 20, returns: 0, iterations: {iterations},
 """
 
 
-def measure(program, folder, mechanism, refinement, iterations, ranks, library):
-    """user time (s), largest memory of a rank (MiB), iterations of GMRES, calls and bytes by kind of message, cells."""
+def measure(program, folder, mechanism, refinement, iterations, ranks):
+    """user time (s), largest memory of a rank (MiB), iterations of GMRES, cells."""
     name = f"{mechanism}_{refinement}_{iterations}_{ranks}"
     deck = folder / f"{name}.yaml"
     deck.write_text(DECK.format(mechanism=MECHANISMS / f"{mechanism}.yaml", refinement=refinement, fuel=SIZES[mechanism][1],
                                 iterations=iterations), encoding="utf-8")
     command = [program, "run", str(deck), "--out", str(folder / name), "--force"]
     environment = dict(os.environ, PETSC_OPTIONS=f"-log_view :{folder / name}.petsc")
-    if library:
-        environment["LD_PRELOAD"] = str(library)
     if ranks > 1:
         command = ["mpirun", "--oversubscribe", "-n", str(ranks)] + command
     with open(folder / f"{name}.log", "w", encoding="utf-8") as log, \
@@ -64,23 +62,18 @@ def measure(program, folder, mechanism, refinement, iterations, ranks, library):
         raise SystemExit(f"{name}: exit {run.returncode}, expected {iterations} iterations\n{text[-2000:]}")
     petsc = (folder / f"{name}.petsc").read_text(encoding="utf-8", errors="replace")
     krylov = sum(int(found) for found in re.findall(r"^KSPGMRESOrthog\s+(\d+)", petsc, re.MULTILINE))
-    messages = {kind: (float(calls), float(size)) for kind, calls, size in
-                re.findall(r"^messages (\w+)\s+(\S+)\s+\S+\s+(\S+)", text, re.MULTILINE)}
     cells = json.loads((folder / name / "run.json").read_text(encoding="utf-8"))["cells"]
-    return usage.ru_utime, usage.ru_maxrss / 1024, krylov, messages, cells
+    return usage.ru_utime, usage.ru_maxrss / 1024, krylov, cells
 
 
 def row(options, mechanism, refinement, ranks):
     """Prints a row; the number of cells, species, and s an iteration."""
-    few, many = (measure(options.program, options.folder, mechanism, refinement, iterations, ranks, options.count)
+    few, many = (measure(options.program, options.folder, mechanism, refinement, iterations, ranks)
                  for iterations in (FEW, MANY))
     steps = MANY - FEW
-    seconds, cells, species = (many[0] - few[0]) / steps, many[4], SIZES[mechanism][0]
-    said = ", ".join(f"{kind} {(many[3][kind][0] - few[3].get(kind, (0, 0))[0]) / steps:.0f} "
-                     f"({(many[3][kind][1] - few[3].get(kind, (0, 0))[1]) / steps / 1000:.1f} kB)"
-                     for kind in many[3] if many[3][kind][0] > few[3].get(kind, (0, 0))[0])
+    seconds, cells, species = (many[0] - few[0]) / steps, many[3], SIZES[mechanism][0]
     print(f"| {species} | {cells} | {ranks} | {seconds:.3f} | {1e6 * seconds / cells:.0f} | {(many[2] - few[2]) / steps:.1f} | "
-          f"{many[1]:.0f} | {said} |", flush=True)
+          f"{many[1]:.0f} |", flush=True)
     return cells, species, seconds
 
 
@@ -98,10 +91,9 @@ def main() -> None:
     parser.add_argument("--cells", type=float, nargs="*", default=[1.15, 2.3, 4.6])
     parser.add_argument("--ranks", type=int, nargs="*", default=[1, 2])
     parser.add_argument("--mechanisms", nargs="*", default=list(SIZES))
-    parser.add_argument("--count", type=pathlib.Path)
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    print("| species | cells | ranks | s an iteration | us a cell | GMRES iterations | MiB a rank | messages of a rank |")
+    print("| species | cells | ranks | s an iteration | us a cell | GMRES iterations | MiB a rank |")
     for ranks in options.ranks:
         sizes = [row(options, "methane_drm19_21", refinement, ranks) for refinement in options.cells]
         species = [row(options, mechanism, 1.15, ranks) for mechanism in options.mechanisms]

@@ -98,6 +98,38 @@ TEST_F(BranchOfCounterflow, GoesRoundTheLoadAtWhichTheFlameGoesOut) {
   EXPECT_LT(hottest(), 800.0);
 }
 
+// In one change of the gas, as far as no cell is limited.
+TEST_F(BranchOfCounterflow, ChangesTheLoadSoThatItsConditionHolds) {
+  transport.initialise(state, 1e-6);
+  ASSERT_LE(settle(1e-3), 1e-3);
+  FlowResidual residual(box.context, state, VelocityScheme::Limited, operators);
+  residual.evaluate(state);
+  std::vector<double> inertia(at(box.mesh.owned), 0.0), from(inertia.size()), along(inertia.size());
+  for (int face = 0; face < box.mesh.faces; ++face)
+    for (const int cell : {box.mesh.low[face], box.mesh.high[face]})
+      if (cell >= 0 && cell < box.mesh.owned) inertia[at(cell)] += std::abs(state.massFlux[face]);
+  for (std::size_t c = 0; c < from.size(); ++c) {
+    along[c] = 300.0 - state.temperature[c];
+    from[c] = state.temperature[c] * (1.0 - 2e-3 * std::sin(2000.0 * box.mesh.centre[c][1]));
+  }
+  LoadControl control(box.context);
+  control.require(from, along, 2.0);
+  EXPECT_GT(std::abs(control.left(state)), 0.1);
+  GasUpdate gasUpdate(box.context, state, operators);
+  const GasUpdate::Result result = gasUpdate.advance(state, residual, inertia, &control);
+  EXPECT_EQ(result.limited, 0);
+  EXPECT_LT(std::abs(result.loadChange), 0.099);
+  EXPECT_GT(result.loadChange, 0.0) << "a larger load cools";
+  EXPECT_NEAR(control.left(state), 0.0, 1e-9);
+  // What the load does to the flow: all in proportion.
+  const State before = state;
+  control.scale(state, 1.25);
+  EXPECT_EQ(box.context.load, 1.25);
+  for (std::size_t i = 0; i < state.velocity.size(); ++i) EXPECT_EQ(state.velocity[i], 1.25 * before.velocity[i]);
+  for (std::size_t i = 0; i < state.massFlux.size(); ++i) EXPECT_EQ(state.massFlux[i], 1.25 * before.massFlux[i]);
+  EXPECT_NEAR(state.pressure[0], 1.5625 * before.pressure[0], 1e-12 * std::abs(before.pressure[0]));
+}
+
 TEST_F(BranchOfCounterflow, EndsWhereItIsToldTo) {
   transport.initialise(state, 1e-6);
   ASSERT_LE(settle(1e-5), 1e-5);
