@@ -217,6 +217,29 @@ TEST(SteadyMode, GoesOnFromACheckpointAsIfItHadNotStopped) {
   expectSameRun(scratch.path() / "iterations on", scratch.path() / "whole");
 }
 
+// Of states along the load; the run's own state is the first.
+TEST(SteadyMode, FollowsABranchAndKeepsTheStateThatWasFound) {
+  const test::SharedScratchFolder scratch;
+  const std::string branch = "time.steady.continuation={first_step: 0.2, maximum_points: 4}";
+  const RunRecord followed = runChannel(scratch.path() / "branch", {steady, branch, boundaries});
+  runChannel(scratch.path() / "alone", {steady, boundaries});
+  const Hdf5Reader a(scratch.path() / "branch/results.h5"), b(scratch.path() / "alone/results.h5");
+  for (const char* field : {"temperature", "velocity", "viscosity"}) EXPECT_EQ(lastOf(a, field), lastOf(b, field));
+  const std::vector<double> load = a.numbers("/continuation/load"), residual = a.numbers("/continuation/residual");
+  ASSERT_EQ(load.size(), 4U);
+  EXPECT_EQ(load[0], 1.0);
+  EXPECT_NEAR(load[1], 1.2, 1e-12);
+  EXPECT_GT(load[3], load[2]);
+  EXPECT_LE(std::ranges::max(residual), 1e-7);
+  EXPECT_TRUE(a.numbers("/continuation/turning_points/load").empty());
+  EXPECT_THAT(followed.resultsJson, AllOf(HasSubstr("\"branch\": "), HasSubstr("\"reason\": \"4 points\"")));
+  EXPECT_TRUE(std::filesystem::exists(scratch.path() / "branch/branch.csv"));
+  // At the load of the second state, by itself.
+  runChannel(scratch.path() / "second", {steady, "boundaries.in.velocity=36 cm/s"});
+  const Hdf5Reader second(scratch.path() / "second/results.h5");
+  EXPECT_NEAR(a.numbers("/continuation/maximum_temperature")[1], std::ranges::max(lastOf(second, "temperature")), 1e-4);
+}
+
 // Whose velocities and mass fluxes are round-off.
 TEST(SteadyMode, FindsGasAtRest) {
   const test::SharedScratchFolder scratch;
@@ -362,6 +385,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"AFormulaOfTime",
                 {"boundaries.cold.formula.tangential_velocity='0.1*sin(t)'"},
                 "boundaries.cold: what this boundary has depends on the time t"},
+        Refused{"ABranchThatEndsBeforeItBegins",
+                {"time.steady.continuation.highest_load=0.5"},
+                "time.steady.continuation: the branch begins with a load of one"},
         Refused{"Ensembles", {"stochastic.exchange=one_way"}, "time.mode: ensembles in the cells fluctuate"},
         Refused{"AVesselThatIsFilled", {closed}, "time.mode: a vessel without an outlet"},
         Refused{"AVesselThatIsCooled", {closed, noInlet, "boundaries.cold.temperature=299 K"}, "a vessel without"},
