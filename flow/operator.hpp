@@ -86,6 +86,10 @@ class Operator {
     std::span<double> carried;
   };
   virtual void addSlopes(const State&, const Slopes&) {}
+  // Of what addRates() adds in the owned cells, the part by the gradient of a carried scalar itself: as a flow through
+  // each face, of each scalar (kg/s, from low to high), that changes cells as convection would by what they differ from
+  // where it comes from. For iterations as well. Collective.
+  virtual void addCarriedFlow(std::span<double> /*flow*/) {}
   // Sets what transport needs to know of the operator's scalars in a state, and what is a function of them
   // (State::carriedDiffusivity, eddyViscosity), in the owned cells; advance() and endSweep() do so by themselves. The
   // halo is filled by who calls. Collective.

@@ -1,6 +1,7 @@
 #include "flow/discretisation/gradient.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 
 #include "core/least_squares.hpp"
@@ -76,6 +77,34 @@ void Gradient::along(const Vector3& direction, int cell, std::span<const double>
     const int face = m.faceOfCell[i];
     const double* other = valuesBeyond(m, cell, face, values, boundary, components);
     for (int k = 0; k < components; ++k) slope[k] += share * (other[k] - own[k]);
+  }
+}
+
+void Gradient::beyond(std::span<const double> values, std::span<const double> boundary,
+                      std::span<const double> gradient, std::span<const BoundaryData> known, double mostRise,
+                      std::span<Beyond> out) const {
+  const Mesh& m = mesh_;
+  const auto d = static_cast<std::size_t>(m.dimension);
+  Weights room;
+  for (int cell = 0; cell < m.owned; ++cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    const Vector3* weight = weights(cell, known, 1, 0, room);
+    out[c] = {};
+    for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
+      if (*weight == Vector3{}) continue;
+      const int face = m.faceOfCell[i];
+      const Vector3 step = scaled(m.step[face], m.low[face] == cell ? 1.0 : -1.0);
+      const double* other = valuesBeyond(m, cell, face, values, boundary, 2);
+      std::array<double, 2> rise{}, along{};  // to the neighbour; by the gradient
+      for (std::size_t k = 0; k < 2; ++k) {
+        rise[k] = other[k] - values[2 * c + k];
+        for (std::size_t axis = 0; axis < d; ++axis) along[k] += gradient[(2 * c + k) * d + axis] * step[axis];
+      }
+      const double share = dot(*weight, step) / dot(step, step);
+      const double limited = std::min(rise[1], mostRise * std::max(values[2 * c + 1], 0.0));
+      out[c].product += share * (rise[0] * rise[1] - along[0] * along[1]);
+      out[c].square += share * (limited * limited - along[1] * along[1]);
+    }
   }
 }
 

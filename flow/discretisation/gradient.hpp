@@ -33,6 +33,18 @@ class Gradient {
   void along(const Vector3& direction, int cell, std::span<const double> values, std::span<const double> boundary,
              int components, std::span<double> slope, std::span<const BoundaryData> known = {}) const;
 
+  // Of two values a cell, `a` and `b` > 0, with the gradients that compute() gives: by how much grad a . grad b and
+  // |grad b|^2 as means over the slopes towards the neighbours, weighted as the differences are in the gradient, exceed
+  // those of the gradients themselves. Of second order with and without. The means lean to the side where `a` is
+  // steeper, as an upwind scheme for b would, and a neighbour whose `b` is more than `mostRise` of the cell's above it
+  // counts in the square as if it were so much: not more than b could be smooth over. `known` has a flag a boundary
+  // face.
+  struct Beyond {
+    double product = 0.0, square = 0.0;
+  };
+  void beyond(std::span<const double> values, std::span<const double> boundary, std::span<const double> gradient,
+              std::span<const BoundaryData> known, double mostRise, std::span<Beyond> out) const;
+
   // Distance at which a boundary's value counts that lies `distance` from the cell's centre: a field without slope has
   // the cell's own value at the mirrored place. Zero: it does not count.
   static double reach(double distance, BoundaryData data) {

@@ -35,6 +35,8 @@ CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, con
   made_ = residual.rates().made;
   conductance_.resize(static_cast<std::size_t>(context.mesh.faces) * n_);
   flux_.resize(conductance_.size());
+  flow_.resize(conductance_.size());
+  moved_.resize(right_.size());
 }
 
 void CarriedUpdate::findScales(const State& state) {
@@ -52,7 +54,11 @@ void CarriedUpdate::findScales(const State& state) {
 void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia) {
   const Mesh& m = context_.mesh;
   std::ranges::fill(slopes_, 0.0);
-  for (Operator* op : operators_) op->addSlopes(state, {{}, slopes_});
+  std::ranges::fill(flow_, 0.0);
+  for (Operator* op : operators_) {
+    op->addSlopes(state, {{}, slopes_});
+    op->addCarriedFlow(flow_);
+  }
   const FlowResidual::Rates& rates = residual.rates();
   system_.clear();
   for (int cell = 0; cell < m.owned; ++cell) {
@@ -75,6 +81,7 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
       if (!state.scalars[s].isTransported) continue;
       const std::size_t at = static_cast<std::size_t>(face) * n_ + s;
       system_.connect(face, s, conductance_[at], state.massFlux[face]);
+      if (flow_[at] != 0.0) system_.connect(face, s, 0.0, flow_[at]);
       const double drift = state.scalars[s].thermophoresis * residual.carried().driftFlux()[face];
       if (m.high[face] >= 0 && drift != 0.0) system_.drift(face, s, drift);
     }
@@ -104,12 +111,30 @@ double CarriedUpdate::leftOf(const State& state, int cell, double share) const {
       double expected = 0.0;
       for (std::size_t by = 0; by < n_; ++by)
         expected += slopes_[(c * n_ + by) * n_ + s] * scales_[by] * change_[c * n_ + by];
-      left += (V * (made_.netOfCarried(i, state.carried) - startRates_[i]) - share * mass * expected) / scales_[s];
+      left += (V * (made_.netOfCarried(i, state.carried) - startRates_[i]) - share * mass * expected) / scales_[s] -
+              share * moved_[i];
     }
     left /= mass * (std::abs(start_[i]) / scales_[s] + leastCounted);
     sum += left * left;
   }
   return std::sqrt(sum);
+}
+
+void CarriedUpdate::findMoved() {
+  const Mesh& m = context_.mesh;
+  std::ranges::fill(moved_, 0.0);
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[face], high = m.high[face];
+    for (std::size_t s = 0; s < n_; ++s) {
+      const double flow = flow_[static_cast<std::size_t>(face) * n_ + s];
+      if (flow == 0.0) continue;
+      const std::size_t ofLow = static_cast<std::size_t>(low) * n_ + s;
+      const std::size_t ofHigh = static_cast<std::size_t>(std::max(high, 0)) * n_ + s;
+      const double rise = (high < 0 ? 0.0 : change_[ofHigh]) - change_[ofLow];
+      if (low < m.owned) moved_[ofLow] += std::max(-flow, 0.0) * rise;
+      if (high >= 0 && high < m.owned) moved_[ofHigh] -= std::max(flow, 0.0) * rise;
+    }
+  }
 }
 
 void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
@@ -122,6 +147,7 @@ void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
     }
     before[c] = leftOf(state, static_cast<int>(c), 0.0);
   }
+  findMoved();
   std::ranges::fill(shares_, 1.0);
   std::int64_t less = 1;
   for (int halvings = 0; less > 0; ++halvings) {

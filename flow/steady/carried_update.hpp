@@ -32,6 +32,7 @@ class CarriedUpdate {
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
   void takeShares(State& state, const FlowResidual& residual);
   void take(State& state, int cell) const;
+  void findMoved();
   [[nodiscard]] double leftOf(const State& state, int cell, double share) const;
 
   const FlowContext& context_;
@@ -43,6 +44,8 @@ class CarriedUpdate {
   std::vector<double> scales_;
   std::vector<double> slopes_;  // Operator::Slopes::carried
   std::vector<double> right_, change_, conductance_, flux_;
+  std::vector<double> flow_;   // Operator::addCarriedFlow
+  std::vector<double> moved_;  // what that brings into the owned cells by the change, over the scales
   // Owned cells: amounts per kg and their rates (per m3 and s) that the change begins with; the share of it that is
   // taken.
   std::vector<double> start_, startRates_, shares_;

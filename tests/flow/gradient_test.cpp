@@ -66,6 +66,57 @@ TEST(Gradient, ParabolaIsExactOnGradedMesh) {
             1000.0 * epsilon);
 }
 
+// Means over the slopes to the neighbours are the products of the gradients where fields are linear; along an axis of
+// even cells of width h they exceed them by (h/2)^2 a'' b'', and a rise is limited to what it may be at most.
+TEST(Gradient, ProductsOfSlopesSeeWhatGradientsDoNot) {
+  Box box = gradedBox(1);
+  const Mesh& m = box.mesh;
+  std::vector<double> values(at(2 * m.cells)), boundary(at(2 * m.boundaryFaces())), gradient(at(4 * m.cells));
+  std::vector<Gradient::Beyond> beyond(at(m.owned));
+  const auto fill = [&](const std::function<std::array<double, 2>(const Vector3&)>& f) {
+    for (int c = 0; c < m.cells; ++c) std::ranges::copy(f(m.centre[at(c)]), &values[at(2 * c)]);
+    for (int b = 0; b < m.boundaryFaces(); ++b)
+      std::ranges::copy(f(m.faceCentre[at(m.interiorFaces + b)]), &boundary[at(2 * b)]);
+  };
+  const std::vector<BoundaryData> known(at(m.boundaryFaces()), BoundaryData::Value);
+  const auto compute = [&](double mostRise) {
+    Gradient(m).compute(values, boundary, 2, gradient);
+    Gradient(m).beyond(values, boundary, gradient, known, mostRise, beyond);
+  };
+  fill([](const Vector3& x) { return std::array{3.0 - 2.0 * x[0] + 5.0 * x[1], 4.0 + x[0] - 3.0 * x[1]}; });
+  compute(100.0);
+  for (const Gradient::Beyond& of : beyond) {
+    EXPECT_NEAR(of.product, 0.0, 1e-10);
+    EXPECT_NEAR(of.square, 0.0, 1e-10);
+  }
+  // Slopes to both sides by the parabolas: a' -+ a'' times half of the distance.
+  fill([](const Vector3& x) { return std::array{x[1] * x[1], 9.0 + x[1] - 2.0 * x[1] * x[1]}; });
+  const auto expect = [&](double mostRise) {
+    compute(mostRise);
+    for (int c = 0; c < m.owned; ++c) {
+      double product = 0.0, square = 0.0, weights = 0.0;
+      const double y = m.centre[at(c)][1], b = values[at(2 * c + 1)];
+      std::vector<double> steps;
+      for (int i = m.faceStart[at(c)]; i < m.faceStart[at(c) + 1]; ++i) {
+        const int face = m.faceOfCell[at(i)];
+        if (std::abs(m.normal[at(face)][1]) > 0.5)
+          steps.push_back(m.step[at(face)][1] * (m.low[at(face)] == c ? 1 : -1));
+      }
+      ASSERT_EQ(steps.size(), 2U);
+      for (const double h : steps) {
+        const double rise = h * (1.0 - 4.0 * y - 2.0 * h), counted = std::min(rise, mostRise * b) / h;
+        product += (2.0 * y + h) * rise / h / std::abs(h);
+        square += counted * counted / std::abs(h);
+        weights += 1.0 / std::abs(h);
+      }
+      EXPECT_NEAR(beyond[at(c)].product, product / weights - 2.0 * y * (1.0 - 4.0 * y), 1e-10);
+      EXPECT_NEAR(beyond[at(c)].square, square / weights - (1.0 - 4.0 * y) * (1.0 - 4.0 * y), 1e-10);
+    }
+  };
+  expect(100.0);
+  expect(0.001);
+}
+
 // Fields without a slope at a side have the parabola's slope in the cells there, whatever stands in the boundary's
 // values; components may differ in what is known of them.
 TEST(Gradient, ParabolaWithoutSlopeAtASideIsExact) {

@@ -108,6 +108,65 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
   }
 }
 
+// Rates by a variable's own gradient, as a flow: of the first by its square, of the second along a direction.
+struct Drifting {
+  static constexpr bool needsWallDistance = false, needsStrainGradient = false;
+  [[nodiscard]] std::string name() const { return "drifting"; }
+  [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return {{"a", "1", ""}, {"b", "1", ""}}; }
+  [[nodiscard]] std::array<double, 2> freeStream(const FreeStream&) const { return {2.0, 3.0}; }
+  [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
+    const Vector3 &a = cell.gradients[0], &b = cell.gradients[1];
+    return {.source = {5.0 * dot(a, a) + b[0], 7.0 * b[0] - 11.0 * b[1] + a[1]}};
+  }
+};
+
+TEST(Turbulence, RatesByAGradientAreAFlowThroughFaces) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+                          side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)};
+  sides[2].condition.slip = false;
+  const double length = 0.007;
+  Box box(Geometry::Planar, {uniformAxis(length, 7), uniformAxis(length, 7)}, sides, gas);
+  const Mesh& m = box.mesh;
+  const auto model = std::make_shared<PointwiseModel<Drifting>>();
+  State state = box.stateWith({TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+                              [&](const Vector3&) {
+                                return Box::Local{{0.0, 0.0}, 300.0, air};
+                              });
+  GasProperties properties;
+  properties.viscosity.assign(state.density.size(), 1.8e-5);
+  TurbulenceOperator turbulence(box.context, state, model, properties);
+  const double A = 100.0, B = -60.0, density = state.density[0];
+  for (int c = 0; c < m.cells; ++c) {
+    const Vector3& x = m.centre[at(c)];
+    state.carried[at(2 * c)] = density * (1.0 + A * x[0] + B * x[1]);
+    state.carried[at(2 * c + 1)] = density * (1.0 + A * x[1]);
+  }
+  State::Balance rates = state.balance;
+  turbulence.addRates(state, rates);
+  std::vector<double> flow(at(2 * m.faces), 1.0);
+  turbulence.addCarriedFlow(flow);
+  int inside = 0;
+  for (int face = 0; face < m.faces; ++face) {
+    const Vector3 &n = m.normal[at(face)], &x = m.faceCentre[at(face)];
+    if (m.high[at(face)] < 0) {
+      // Where nothing is given the gradient is not the rate's.
+      if (!box.context.boundaryOf(face).isNoSlipWall()) EXPECT_EQ(flow[at(2 * face)], 1.0);
+      if (box.context.boundaryOf(face).isNoSlipWall())
+        EXPECT_NEAR(flow[at(2 * face + 1)] - 1.0, density * m.area[at(face)] * (-7.0 * n[0] + 11.0 * n[1]), 1e-7);
+      continue;
+    }
+    if (std::max(std::abs(x[0] - 0.5 * length), std::abs(x[1] - 0.5 * length)) > 0.25 * length) continue;
+    ++inside;
+    const double size = density * m.area[at(face)];
+    EXPECT_NEAR((flow[at(2 * face)] - 1.0) / size, -10.0 * (A * n[0] + B * n[1]), 0.2);
+    EXPECT_NEAR((flow[at(2 * face + 1)] - 1.0) / size, -7.0 * n[0] + 11.0 * n[1], 1e-6);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &inside, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_GE(inside, 20);
+}
+
 // A stream of fuel into warm air beside a wall, with a passive scalar that eddies spread.
 State mixed(std::optional<double> eddies, int sweeps, std::optional<Split> split, EddyNumbers numbers = {}) {
   Gas& gas = Gas::hydrogen();

@@ -23,12 +23,14 @@ inline std::array<double, 2> freeStreamOfKOmega(const FreeStream& stream) {
 
 struct KOmegaState {
   double k, g, omega;
-  double cross;  // 1/s, grad k . grad omega / omega
+  double cross;   // 1/s^2, grad k . grad omega / omega
+  double square;  // s/m^2, |grad g|^2
   explicit KOmegaState(const TurbulentCell& cell)
       : k(std::max(cell.values[K], 0.0)),
         g(std::max(cell.values[G], 1e-12)),
         omega(1.0 / (g * g)),
-        cross(-2.0 * dot(cell.gradients[K], cell.gradients[G]) / g) {}
+        cross(-2.0 * (dot(cell.gradients[K], cell.gradients[G]) + cell.productBeyond) / g),
+        square(std::max(dot(cell.gradients[G], cell.gradients[G]) + cell.squareBeyond, 0.0)) {}
 };
 
 // `gained`: 1/s^2, what production and cross diffusion add to omega; its diffusivity is that of `rates`.
@@ -38,7 +40,7 @@ inline void addOmega(const TurbulentCell& cell, const KOmegaState& state, double
   // -beta omega^2 gives beta/(2 g), by its tangent.
   rates.source[G] += beta / g;
   rates.sink[G] += 0.5 * beta / (g * g);
-  rates.sink[G] += 3.0 * rates.diffusivity[G] * dot(cell.gradients[G], cell.gradients[G]) / (g * g);
+  rates.sink[G] += 3.0 * rates.diffusivity[G] * state.square / (g * g);
   rates.add(G, -0.5 * g * g * g * gained, g);
 }
 

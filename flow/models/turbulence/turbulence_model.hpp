@@ -32,6 +32,8 @@ struct TurbulentCell {
   Vector3 densityGradient{};     // 1/m, of the density over the density
   std::array<double, most> values{};
   std::array<Vector3, most> gradients{};
+  // Of the second variable's: what differences see beside the products of the gradients (Gradient::Beyond).
+  double productBeyond = 0.0, squareBeyond = 0.0;
 };
 
 struct TurbulentRates {

@@ -12,6 +12,8 @@ namespace lampblack::flow {
 namespace {
 
 constexpr const char* owner = "turbulence";
+// Of g beside a wall, which is linear: twice the value on even cells.
+constexpr double mostRise = 3.0;
 
 }  // namespace
 
@@ -56,6 +58,7 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   beside_.resize(owned);
   ratesBeside_.resize(owned);
   slopes_.resize(owned);
+  density_.resize(owned);
   values_.resize(cells * count_);
   boundaryValues_.resize(faces * count_);
   valueGradient_.resize(cells * count_ * d);
@@ -64,6 +67,7 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   boundaryStrain_.resize(faces);
   strainGradient_.resize(cells * d);
   strainSum_.resize(owned);
+  if (count_ == 2) beyond_.resize(owned);
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const auto b = static_cast<std::size_t>(face - m.interiorFaces);
     const BoundaryKind kind = context.boundaryOf(face).kind;
@@ -133,26 +137,6 @@ void TurbulenceOperator::findShear() {
   }
 }
 
-void TurbulenceOperator::addStrainGradient(const State& state) {
-  const Mesh& m = context_.mesh;
-  const auto d = static_cast<std::size_t>(m.dimension);
-  for (int face = m.interiorFaces; face < m.faces; ++face)
-    if (isSticky(face)) boundaryStrain_[face - m.interiorFaces] = strainAtWall(face, state);
-  context_.halo.update(strain_, 1);
-  gradient_.compute(strain_, boundaryStrain_, 1, strainGradient_, knownStrain_);
-  std::ranges::fill(strainSum_, 0.0);
-  for (int face = 0; face < m.faces; ++face) {
-    const bool isInside = m.high[face] >= 0;
-    if (!isInside && !isSticky(face)) continue;
-    const double beyond = isInside ? strain_[m.high[face]] : boundaryStrain_[face - m.interiorFaces];
-    addFaceFlux(m, face, -m.area[face] / m.distance[face] * (beyond - strain_[m.low[face]]), 1.0, strainSum_);
-  }
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    cells_[c].strainLaplacian = strainSum_[c] / m.volume[c];
-    std::copy_n(&strainGradient_[c * d], d, cells_[c].strainGradient.begin());
-  }
-}
-
 void TurbulenceOperator::evaluate(const State& state) {
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(m.dimension);
@@ -163,13 +147,19 @@ void TurbulenceOperator::evaluate(const State& state) {
     for (std::size_t v = 0; v < count_; ++v)
       values_[c * count_ + v] = state.carried[c * n + first_ + v] / state.density[c];
   gradient_.compute(values_, boundaryValues_, static_cast<int>(count_), valueGradient_, known_);
+  if (count_ == 2) gradient_.beyond(values_, boundaryValues_, valueGradient_, known_, mostRise, beyond_);
   gradient_.compute(state.density, boundaryStrain_, 1, densityGradient_, knownDensity_);
+  std::copy_n(state.density.begin(), cells_.size(), density_.begin());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     TurbulentCell& cell = cells_[c];
     cell.dilatation = velocityGradient_.dilatation(static_cast<int>(c), state.velocity);
     cell.viscosity = properties_.viscosity[c] / state.density[c];
     if (model_->needsWallDistance()) cell.distance = context_.wallDistance[c];
     std::copy_n(&values_[c * count_], count_, cell.values.begin());
+    if (count_ == 2) {
+      cell.productBeyond = beyond_[c].product;
+      cell.squareBeyond = beyond_[c].square;
+    }
     for (std::size_t i = 0; i < d; ++i) {
       for (std::size_t v = 0; v < count_; ++v) cell.gradients[v][i] = valueGradient_[(c * count_ + v) * d + i];
       cell.densityGradient[i] = densityGradient_[c * d + i] / state.density[c];

@@ -42,6 +42,7 @@ class TurbulenceOperator : public Operator {
   void addRates(const State& state, State::Balance& rates) override;
   // Of the state that addRates() was asked of last: those of rates by other variables, and sinks.
   void addSlopes(const State& state, const Slopes& slopes) override;
+  void addCarriedFlow(std::span<double> flow) override;
   [[nodiscard]] bool actsOnCarried() const override { return true; }
   // Both of them functions of the state alone: the diffusivities of the variables, and the eddy viscosity, all of it.
   // Fills the halo of the state first, which slopes need. Collective.
@@ -94,6 +95,9 @@ class TurbulenceOperator : public Operator {
   // Of the local cells and boundary faces: the variables per mass; 1/s.
   std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_,
       strainGradient_, strainSum_;
+  std::vector<Gradient::Beyond> beyond_;
+  std::vector<double> density_;  // of the owned cells, as evaluated
+  std::vector<double> drift_;    // kg/(m^2 s), of the local cells: density times the velocity that moves a variable
 };
 
 }  // namespace lampblack::flow
