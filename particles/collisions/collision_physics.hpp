@@ -20,9 +20,19 @@ enum class SlipLaw { davies, air };
          std::sqrt(constants::pi * constants::gasConstant * gas.temperature / (2 * gas.meanMolecularWeight));
 }
 
-// Cunningham slip correction at Knudsen number 2 lambda / d (Davies 1945; Wang 2025, eq. 7-31).
+// The length over which a diameter is taken for the Knudsen number, m.
+[[nodiscard]] inline double slipLength(SlipLaw law, const CarrierGas& gas) {
+  return law == SlipLaw::davies ? 2 * meanFreePath(gas) : 4.74e-5 * gas.temperature / gas.pressure;
+}
+
+// 1 + Kn (fast + slow exp(-fall/Kn)) (Davies 1945; Wang 2025, eq. 7-31).
+struct DaviesSlip {
+  static constexpr double fast = 1.257, slow = 0.4, fall = 1.1;
+};
+
+// Cunningham slip correction at Knudsen number 2 lambda / d.
 [[nodiscard]] inline double slipCorrection(double knudsen) {
-  return 1 + knudsen * (1.257 + 0.4 * std::exp(-1.1 / knudsen));
+  return 1 + knudsen * (DaviesSlip::fast + DaviesSlip::slow * std::exp(-DaviesSlip::fall / knudsen));
 }
 
 // Brownian diffusivity of a sphere, m2/s (Wang 2025, eqs. 7-30 to 7-33).

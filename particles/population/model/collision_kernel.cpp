@@ -93,8 +93,7 @@ CollisionKernel::CollisionKernel(const CollisionKernelOptions& options) : option
   if (options.type == Type::freeMolecular) return;
   continuum_ = continuumPrefactor(gas.temperature, gas.viscosity);
   continuumScale_ = efficiency * continuum_;
-  twiceMeanFreePath_ =
-      options.slip == SlipLaw::davies ? 2 * meanFreePath(gas) : 4.74e-5 * gas.temperature / gas.pressure;
+  twiceMeanFreePath_ = slipLength(options.slip, gas);
   if (options.type == Type::continuum) return;
   rank_ = 3;
   fuchsPath_ = fuchsPathPrefactor(gas.temperature, gas.viscosity);

@@ -102,7 +102,7 @@ class CollisionKernel {
   }
   [[nodiscard]] double slipOver(double diameter) const {  // C/d
     const double knudsen = twiceMeanFreePath_ / diameter;
-    return (options_.slip == SlipLaw::davies ? slipCorrection(knudsen) : 1 + 1.257 * knudsen) / diameter;
+    return (options_.slip == SlipLaw::davies ? slipCorrection(knudsen) : 1 + DaviesSlip::fast * knudsen) / diameter;
   }
   [[nodiscard]] double reach(const Properties& x, double slipOverDiameter) const {  // d + 2g, or d without Fuchs
     if (options_.type != CollisionKernelType::transitionFuchs) return x.diameter;

@@ -22,8 +22,8 @@ PairKernel::PairKernel(const CollisionKernelOptions& options) : kernel_(options)
     case CollisionKernelType::continuum:
     case CollisionKernelType::transition:
       continuum_ = options.efficiency * continuumPrefactor(gas.temperature, gas.viscosity);
-      twicePath_ = options.slip == SlipLaw::davies ? 2 * meanFreePath(gas) : 4.74e-5 * gas.temperature / gas.pressure;
-      slow_ = options.slip == SlipLaw::davies ? 0.4 : 0;
+      slipLength_ = slipLength(options.slip, gas);
+      slow_ = options.slip == SlipLaw::davies ? DaviesSlip::slow : 0;
       [[fallthrough]];
     case CollisionKernelType::freeMolecular:
       freeMolecular_ = options.efficiency * freeMolecularPrefactor(gas.temperature, options.enhancement);

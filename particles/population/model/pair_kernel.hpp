@@ -36,8 +36,9 @@ class PairKernel {
 
  private:
   [[nodiscard]] float mobility(double diameter) const {  // continuum prefactor times C/d
-    const double knudsen = twicePath_ / diameter;
-    const double slip = 1 + knudsen * (1.257 + slow_ * numerics::vectormath::expOne(-1.1 / knudsen));
+    const double knudsen = slipLength_ / diameter;
+    const double slip =
+        1 + knudsen * (DaviesSlip::fast + slow_ * numerics::vectormath::expOne(-DaviesSlip::fall / knudsen));
     return static_cast<float>(continuum_ * slip / diameter);
   }
   [[nodiscard]] float inverseMass(double mass) const {
@@ -47,8 +48,8 @@ class PairKernel {
   CollisionKernel kernel_;
   bool hasForm_;
   double root_ = 0, freeMolecular_ = 0, continuum_ = 0;
-  double twicePath_ = 0;  // m, twice the mean free path, by the slip law
-  double slow_ = 0;       // of Davies' slip correction, zero without
+  double slipLength_ = 0;  // m
+  double slow_ = 0;        // of Davies' slip correction, zero without
 };
 
 inline PairKernel::Terms PairKernel::terms(const CollisionKernel::Properties& x) const {
