@@ -10,13 +10,14 @@
 
 namespace lampblack::app {
 
-void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& particles) {
+void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& method,
+                     const std::string& particles) {
   schema.section("stochastic", Presence::optional, description)
       .add(choiceKey("stochastic.method", {"dsmc", "sammc", "swa", "pairs"},
                      "Monte Carlo method. dsmc: particles of equal weight, doubled when few, reduced when many; sammc: "
                      "particles of different weight, the nearest neighbours in size are merged; swa: stochastic "
                      "weighted algorithm, weights that conserve mass; pairs: as sammc, with pairs drawn in time steps.")
-               .byDefault("sammc"))
+               .byDefault(method))
       .add(integerKey("stochastic.particles",
                       "Number of numerical particles of an ensemble: more have less noise and cost more.")
                .byDefault(particles)

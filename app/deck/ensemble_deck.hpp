@@ -17,9 +17,10 @@ struct EnsembleRequest {
   SizeBins bins;
 };
 
-// The section, described for the problem, with the keys that all problems have; `particles`: the default number of
-// numerical particles.
-void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& particles = "2000");
+// The section, described for the problem, with the keys that all problems have; `method` and `particles`: the default
+// method and number of numerical particles.
+void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& method = "sammc",
+                     const std::string& particles = "2000");
 // Adds the keys of problems whose ensembles are repeated: how often, and with which random numbers.
 void addRepeatKeys(DeckSchema& schema);
 // Of a section of stochastic particles, also of trees: how they and their gas go on together.

@@ -190,7 +190,7 @@ void addParticles(DeckSchema& schema) {
       "Ensembles of particles in the cells, in place of soot.model: they move with the gas, by thermophoresis and "
       "by diffusion from cell to cell. Needs the section soot, whose PAH, surface and switches are theirs, "
       "or the section particles; the random numbers are those of 'seed'.",
-      "500");
+      "pairs", "400");
   addTreeKeys(
       schema,
       "Trees of primaries that share surface in the ensembles of the cells, in place of soot. Needs the section "

@@ -114,6 +114,16 @@ def check_restart(program, mpiexec, executable, folder, deck, whole):
         value, reference = found[f"{last}/{name}"], expected[f"{last}/{name}"]
         assert abs(value - reference).max() < 0.05 * reference.max(), name
     assert found["history/soot_averaged_blocks"][-1] == expected["history/soot_averaged_blocks"][-1]
+    # In a gas that stays as it is the particles do not show the ranks: the same bits.
+    frozen = [*options, *running.settings("stochastic.frozen_gas=50 us")]
+    run(program, deck, *frozen, "--out", folder / "alone", "--restart", checkpoint)
+    run(running.Program(executable, mpiexec, 2), deck, *frozen, "--out", folder / "together", "--restart", checkpoint)
+    alone, together = datasets(folder / "alone"), datasets(folder / "together")
+    fields = [name for name in alone if name.startswith(f"{last}/soot_")]
+    assert len(fields) > 5 and any(alone[name].max() > 0 for name in fields)
+    assert any(alone[name].tobytes() != expected[name].tobytes() for name in fields), "nothing was frozen"
+    different = [name for name in fields if alone[name].tobytes() != together[name].tobytes()]
+    assert not different, f"on two ranks other particles: {different}"
     # Averages that are left out are gone; those that the run before did not have begin.
     without = [setting for setting in SETTINGS if "statistics" not in setting and "quantities" not in setting]
     run(program, deck, *running.settings(*without, "time.end=66 us"), "--out", folder / "without", "--restart", checkpoint)
