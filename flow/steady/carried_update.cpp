@@ -85,6 +85,23 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
       const double drift = state.scalars[s].thermophoresis * residual.carried().driftFlux()[face];
       if (m.high[face] >= 0 && drift != 0.0) system_.drift(face, s, drift);
     }
+  dropFastGrowth(state);
+}
+
+// What grows by itself faster than the pseudo-time and transport let it would be led the wrong way by its derivative,
+// away from where its equation wants it.
+void CarriedUpdate::dropFastGrowth(const State& state) {
+  for (int cell = 0; cell < context_.mesh.owned; ++cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    const double mass = context_.mesh.volume[c] * state.density[c];
+    for (std::size_t s = 0; s < n_; ++s) {
+      double& own = system_.block(cell)[s * (n_ + 1)];
+      double& slope = slopes_[(c * n_ + s) * n_ + s];
+      if (own > 0.0 || slope <= 0.0) continue;
+      own += mass * slope;
+      slope = 0.0;
+    }
+  }
 }
 
 void CarriedUpdate::take(State& state, int cell) const {

@@ -30,6 +30,7 @@ class CarriedUpdate {
  private:
   void findScales(const State& state);
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
+  void dropFastGrowth(const State& state);
   void takeShares(State& state, const FlowResidual& residual);
   void take(State& state, int cell) const;
   void findMoved();
