@@ -25,9 +25,8 @@ void addSectionalKeys(DeckSchema& schema) {
       .add(numberKey(s + "overflow",
                      "Largest volume fraction of soot in the last section, which cannot grow, over the largest of all: "
                      "more is a failure, of a steady state that is sought once it has been found; 1: it is only "
-                     "counted (soot_in_last_section). A hundredth there is an error of about a thousandth of the "
-                     "volume fraction.")
-               .byDefault("1e-2")
+                     "counted (soot_in_last_section).")
+               .byDefault("1e-4")
                .above(0)
                .atMost(1))
       .add(numberKey(s + "nucleus_carbon",
