@@ -116,7 +116,8 @@ struct Drifting {
   [[nodiscard]] std::array<double, 2> freeStream(const FreeStream&) const { return {2.0, 3.0}; }
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
     const Vector3 &a = cell.gradients[0], &b = cell.gradients[1];
-    return {.source = {5.0 * dot(a, a) + b[0], 7.0 * b[0] - 11.0 * b[1] + a[1]}};
+    return {.eddyViscosity = cell.productBeyond + 2.0 * cell.squareBeyond,
+            .source = {5.0 * dot(a, a) + b[0], 7.0 * b[0] - 11.0 * b[1] + a[1]}};
   }
 };
 
@@ -152,9 +153,9 @@ TEST(Turbulence, RatesByAGradientAreAFlowThroughFaces) {
     const Vector3 &n = m.normal[at(face)], &x = m.faceCentre[at(face)];
     if (m.high[at(face)] < 0) {
       // Where nothing is given the gradient is not the rate's.
-      if (!box.context.boundaryOf(face).isNoSlipWall()) EXPECT_EQ(flow[at(2 * face)], 1.0);
-      if (box.context.boundaryOf(face).isNoSlipWall())
-        EXPECT_NEAR(flow[at(2 * face + 1)] - 1.0, density * m.area[at(face)] * (-7.0 * n[0] + 11.0 * n[1]), 1e-7);
+      const bool isHeld = box.context.boundaryOf(face).isNoSlipWall();
+      const double along = isHeld ? -7.0 * n[0] + 11.0 * n[1] : 0.0;
+      EXPECT_NEAR(flow[at(2 * face + 1)] - 1.0, density * m.area[at(face)] * along, 1e-7);
       continue;
     }
     if (std::max(std::abs(x[0] - 0.5 * length), std::abs(x[1] - 0.5 * length)) > 0.25 * length) continue;
@@ -165,6 +166,17 @@ TEST(Turbulence, RatesByAGradientAreAFlowThroughFaces) {
   }
   MPI_Allreduce(MPI_IN_PLACE, &inside, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
   EXPECT_GE(inside, 20);
+  // Parabolas: (h/2)^2 a'' b'' of the product, (h/2)^2 b''^2 of the square.
+  for (int c = 0; c < m.cells; ++c) {
+    const double y = m.centre[at(c)][1];
+    state.carried[at(2 * c)] = density * 1e3 * y * y;
+    state.carried[at(2 * c + 1)] = density * (1.0 + 2e3 * y * y);
+  }
+  turbulence.setDiffusivities(state);
+  for (int c = 0; c < m.owned; ++c) {
+    if (std::abs(m.centre[at(c)][1] - 0.5 * length) > 0.3 * length) continue;
+    EXPECT_NEAR(state.eddyViscosity[at(c)] / density, 2.0 + 2.0 * 4.0, 1e-6);
+  }
 }
 
 // A stream of fuel into warm air beside a wall, with a passive scalar that eddies spread.

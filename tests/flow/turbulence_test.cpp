@@ -149,6 +149,30 @@ TEST(Turbulence, ModelsOfTwoEquationsGiveTheRatesOfTheirPapers) {
   }
 }
 
+// Products of gradients count with what differences see beside them.
+TEST(Turbulence, ModelsOfTwoEquationsTakeProductsOfSlopes) {
+  for (const char* model : {"sst", "sst1994", "k_omega"}) {
+    SCOPED_TRACE(model);
+    TurbulentCell cell{.strain = 90.0,
+                       .vorticity = 90.0,
+                       .distance = 2e-2,
+                       .viscosity = nu,
+                       .values = {0.02, 0.06},
+                       .gradients = {Vector3{0.0, -2.0}, Vector3{0.0, 3.0}}};
+    TurbulentCell apart = cell;
+    apart.gradients = {Vector3{-2.0, 0.0}, Vector3{0.0, 1.0}};
+    apart.productBeyond = -6.0;
+    apart.squareBeyond = 8.0;
+    const TurbulentRates of = ratesOf(model, cell), ofApart = ratesOf(model, apart);
+    for (const std::size_t v : {0U, 1U}) expectShare(netRate(ofApart, apart, v), netRate(of, cell, v));
+    expectShare(ofApart.diffusivity[1], of.diffusivity[1]);
+    apart.squareBeyond = -8.0;  // no less than nothing
+    const double square = ratesOf(model, apart).sink[1];
+    apart.squareBeyond = -1.0;
+    EXPECT_EQ(ratesOf(model, apart).sink[1], square);
+  }
+}
+
 // Far from the viscous layer: nu_t = kappa u y, the shear u/(kappa y); diffusion and rates cancel at each model's
 // kappa.
 TEST(Turbulence, TheLogLayerSolvesTheEquations) {

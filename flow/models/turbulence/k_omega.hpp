@@ -37,7 +37,7 @@ struct KOmega {
     turbulence::addEnergy(cell, s, produced, betaStar, rates);
     // gamma omega/k P, without k in the denominator; of the dilatation gamma omega (-2/3 div u).
     const double perEnergy = S * S / std::max(s.omega, limit * S / std::sqrt(betaStar)) - 2.0 / 3.0 * cell.dilatation;
-    turbulence::addOmega(cell, s, beta, gamma * s.omega * perEnergy + sigmaD * std::max(s.cross, 0.0), rates);
+    turbulence::addOmega(s, beta, gamma * s.omega * perEnergy + sigmaD * std::max(s.cross, 0.0), rates);
     return rates;
   }
 };

@@ -34,8 +34,7 @@ struct KOmegaState {
 };
 
 // `gained`: 1/s^2, what production and cross diffusion add to omega; its diffusivity is that of `rates`.
-inline void addOmega(const TurbulentCell& cell, const KOmegaState& state, double beta, double gained,
-                     TurbulentRates& rates) {
+inline void addOmega(const KOmegaState& state, double beta, double gained, TurbulentRates& rates) {
   const double g = state.g;
   // -beta omega^2 gives beta/(2 g), by its tangent.
   rates.source[G] += beta / g;

@@ -48,7 +48,7 @@ struct ShearStressTransport {
     if (is2003) perViscosity = std::min(perViscosity, mostProduction * betaStar * s.omega * inverseTime);
     perViscosity -= 2.0 / 3.0 * cell.dilatation * inverseTime;
     const double crossDiffusion = 2.0 * (1.0 - F1) * sigmaOmega2 * s.cross;
-    turbulence::addOmega(cell, s, blend(beta1, beta2), gamma * perViscosity + crossDiffusion, rates);
+    turbulence::addOmega(s, blend(beta1, beta2), gamma * perViscosity + crossDiffusion, rates);
     return rates;
   }
 };
