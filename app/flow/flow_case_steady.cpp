@@ -94,7 +94,7 @@ void addBranchKeys(DeckSchema& schema) {
                .atLeast(2)
                .onlyWith("time.mode", steady))
       .add(numberKey("time.steady.continuation.first_step",
-                     "By how much of itself the load changes from the first state to the second.")
+                     "Change of the load from the first state of the branch to the second, over the load of the first.")
                .byDefault(fmt::format("{}", branch.firstStep))
                .above(0)
                .below(1)
