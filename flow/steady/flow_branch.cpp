@@ -136,10 +136,6 @@ void FlowBranch::follow(const std::function<bool(const Point&)>& onPoint) {
     if (!advance()) return;
 }
 
-void FlowBranch::moveToLoad(double load) {
-  control_.scale(state_, load);
-}
-
 void FlowBranch::predict(double part) {
   const auto go = [part](std::vector<double>& values, const std::vector<double>& last,
                          const std::vector<double>& before) {
@@ -191,7 +187,7 @@ bool FlowBranch::advance() {
         foretold = temperatures(state_);
         found = iterate(&control_);
       } else {
-        moveToLoad(present * (options_.towardsHigherLoad ? 1.0 + step_ : 1.0 / (1.0 + step_)));
+        control_.scale(state_, present * (options_.towardsHigherLoad ? 1.0 + step_ : 1.0 / (1.0 + step_)));
         found = iterate(nullptr);
       }
     } catch (const NumericsError& error) {

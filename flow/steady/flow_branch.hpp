@@ -64,7 +64,6 @@ class FlowBranch {
   [[nodiscard]] bool isEnd();
   // The next state; false where even the shortest step finds none.
   bool advance();
-  void moveToLoad(double load);
   // Along the secant of the last two states, by a part of it.
   void predict(double part);
   void add(Point point, double length);

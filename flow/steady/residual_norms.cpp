@@ -19,10 +19,6 @@ namespace lampblack::flow {
 namespace {
 
 constexpr double noEnd = -std::numeric_limits<double>::infinity();
-// Least ranges, of fields that are the same all over the domain: of the largest temperature; of a mass fraction.
-constexpr double leastRangeOfTemperature = 1e-3, leastRangeOfFraction = 1e-6;
-// Least velocity, of gas at rest: of the length of the domain over the time.
-constexpr double leastVelocityInTime = 1e-3;
 
 // One equation on this rank: what is left in each cell (or face), and what is made of it.
 class Sums {
@@ -119,7 +115,7 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
   MPI_Allreduce(MPI_IN_PLACE, &hottest, 1, MPI_DOUBLE, MPI_MAX, m.comm);
 
   const bool isKnown = std::isfinite(time) && time > 0.0;
-  const double slow = isKnown ? leastVelocityInTime * lengthOfDomain(m, whole[2]) / time : 0.0;  // m/s
+  const double slow = isKnown ? LeastScales::velocity * lengthOfDomain(m, whole[2]) / time : 0.0;  // m/s
   Sums sums(m);
   const auto forEachCell = [&](auto take) {
     for (int c = 0; c < m.owned; ++c) take(static_cast<std::size_t>(c), m.centre[c]);
@@ -151,7 +147,7 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
       sums.brought(place[0] * state.swirl[c]);
     });
   }
-  sums.begin("enthalpy", whole[1] / whole[0], leastRangeOfTemperature * hottest);
+  sums.begin("enthalpy", whole[1] / whole[0], LeastScales::temperature * hottest);
   forEachCell([&](std::size_t c, const Vector3& place) {
     sums.left(rates.enthalpy[c] - state.enthalpy[c] * rates.mass[c], place);
     sums.made(m.volume[c] * std::abs(rates.made.enthalpy[c]));
@@ -160,7 +156,7 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
   std::vector<double> made(static_cast<std::size_t>(m.owned) * n);
   forEachCell([&](std::size_t c, const Vector3&) { rates.made.ofSpecies(c, std::span(made).subspan(c * n, n)); });
   for (std::size_t k = 0; k < n; ++k) {
-    sums.begin(context.mechanism.speciesName(k), 1.0, leastRangeOfFraction, ResidualNorm::Kind::Species);
+    sums.begin(context.mechanism.speciesName(k), 1.0, LeastScales::massFraction, ResidualNorm::Kind::Species);
     forEachCell([&](std::size_t c, const Vector3& place) {
       sums.left(rates.species[c * n + k] - state.Y[c * n + k] * rates.mass[c], place);
       sums.made(m.volume[c] * std::max(made[c * n + k], 0.0));

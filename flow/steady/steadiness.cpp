@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <utility>
 
 namespace lampblack::flow {
@@ -15,13 +14,8 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double piecesOfTime = 4.0;
-// Least scales of fields that are the same all over the domain.
-// Of the mass over the time in which heat is conducted over the domain: less that passes is round-off of a gas at rest.
-constexpr double leastThroughflow = 1e-6;
-constexpr double leastOfValue = 1e-3;     // of the largest value, of a temperature
-constexpr double leastOfVelocity = 1e-3;  // of the length of the domain over the time
-constexpr double leastMassFraction = 1e-6;
-constexpr double leastOfOthers = 1e-3;  // of the largest range of one owner's scalars of one unit
+constexpr double leastOfOthers =
+    1e-3;  // least scale of a carried scalar: of the largest range of one owner's scalars of one unit
 // The record of whole-domain quantities.
 constexpr double recordedTimes = 10.0;    // of time(), that it goes back
 constexpr double recordsPerTime = 500.0;  // at most
@@ -114,51 +108,6 @@ void Steadiness::begin(const State& state, double time) {
   startPiece(state);
 }
 
-double lengthOfDomain(const Mesh& mesh, double volume) {
-  if (mesh.axisymmetric()) return std::cbrt(2.0 * std::numbers::pi * volume);
-  return mesh.dimension == 2 ? std::sqrt(volume) : std::cbrt(volume);
-}
-
-double Steadiness::lengthOfDomain() const {
-  return flow::lengthOfDomain(context_->mesh, volume_);
-}
-
-bool Steadiness::hasThroughflow(const Integrals& sums) const {
-  const double length = lengthOfDomain();
-  return sums[Through] > leastThroughflow * sums[Conduction] / (length * length);
-}
-
-double Steadiness::timeOf(const Integrals& sums) const {
-  if (options_.time) return *options_.time;
-  if (hasThroughflow(sums)) return sums[Mass] / sums[Through];
-  const double length = lengthOfDomain();
-  double time = infinity;
-  if (sums[KineticEnergy] > 0.0) time = length / std::sqrt(2.0 * sums[KineticEnergy] / sums[Mass]);
-  if (sums[Conduction] > 0.0) time = std::min(time, length * length * sums[Mass] / sums[Conduction]);
-  return time;
-}
-
-Steadiness::Integrals Steadiness::sumsOfPieces() const {
-  Integrals sums{};
-  for (const Piece& piece : pieces_)
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += piece.sums[i];
-  return sums;
-}
-
-std::string Steadiness::meaningOfTime() const {
-  if (options_.time) return "time.steady.time";
-  const Integrals sums = pieces_.empty() ? sums_ : sumsOfPieces();
-  if (hasThroughflow(sums)) return "residence time: what is in the domain over what flows through it";
-  const double length = lengthOfDomain();
-  return timeOf(sums) * sums[Conduction] < length * length * sums[Mass] * (1.0 - 1e-9)
-             ? "the size of the domain over the RMS velocity"
-             : "of conduction over the size of the domain";
-}
-
-double Steadiness::time() const {
-  return timeOf(pieces_.empty() ? sums_ : sumsOfPieces());
-}
-
 void Steadiness::add(const State& state, const GasProperties& properties, const HeatRelease& heatRelease, double time) {
   const Mesh& m = context_->mesh;
   forEachValue(state, [this](std::size_t i, double value) {
@@ -244,12 +193,12 @@ std::vector<double> Steadiness::scales(const State& state) const {
     switch (fields_[f].width) {
       case FieldDeclaration::Width::Dimension:
       case FieldDeclaration::Width::Swirl:
-        return leastOfVelocity * lengthOfDomain() / timeOf(sums_);
+        return LeastScales::velocity * lengthOfDomain() / timeOf(sums_);
       case FieldDeclaration::Width::One:
       case FieldDeclaration::Width::Eddies:
-        return leastOfValue * ends[2 * f];
+        return LeastScales::temperature * ends[2 * f];
       case FieldDeclaration::Width::Species:
-        return leastMassFraction;
+        return LeastScales::massFraction;
       case FieldDeclaration::Width::Carried:
         return leastOfOthers * largest[fields_[f].peers];
     }
@@ -301,16 +250,6 @@ void Steadiness::closePiece(const State& state) {
   findPeriod();
 }
 
-// Those that the newer ones do without.
-void Steadiness::dropOldPieces() {
-  while (pieces_.size() > 1) {
-    Integrals rest = sumsOfPieces();
-    for (std::size_t i = 0; i < rest.size(); ++i) rest[i] -= pieces_.front().sums[i];
-    if (rest[Duration] < timeOf(rest) * (1.0 - 1e-9)) break;
-    pieces_.pop_front();
-  }
-}
-
 void Steadiness::findPeriod() {
   const std::size_t axes = signals_.size() - recorded.size();
   const auto latest = [&](std::size_t i) { return signals_[i].values.empty() ? 0.0 : signals_[i].values.back(); };
@@ -321,44 +260,6 @@ void Steadiness::findPeriod() {
                                        : heatOfMass * mass / time();
   for (RecordedSignal& signal : signals_) signal.scale = std::max(signal.scale, std::numeric_limits<double>::min());
   periodicity_ = periodicityOf(times_, signals_);
-}
-
-double Steadiness::changeOf(std::size_t field, Norm norm) const {
-  double change = 0.0;
-  for (const Piece& piece : pieces_) change += (norm == Norm::Maximum ? piece.maximum : piece.rms)[field];
-  const Integrals sums = sumsOfPieces();
-  return change * timeOf(sums) / sums[Duration];
-}
-
-std::optional<Steadiness::Change> Steadiness::change(Norm norm) const {
-  if (pieces_.empty()) return {};
-  Change worst;
-  std::size_t field = 0;
-  for (std::size_t f = 0; f <= fields_.size(); ++f)
-    if (const double value = changeOf(f, norm); value > worst.value) {
-      worst.value = value;
-      field = f;
-    }
-  if (field < fields_.size()) {
-    worst.field = fields_[field].name;
-    std::copy_n(pieces_.back().places.begin() + static_cast<std::ptrdiff_t>(3 * field), 3, worst.place.begin());
-  } else {
-    worst.field = "thermodynamic pressure";
-  }
-  const auto rateOf = [norm](const Piece& piece) {
-    return std::ranges::max(norm == Norm::Maximum ? piece.maximum : piece.rms) / piece.sums[Duration];
-  };
-  const Integrals sums = sumsOfPieces();
-  double mean = 0.0;
-  for (const Piece& piece : pieces_) mean += rateOf(piece) * piece.sums[Duration] / sums[Duration];
-  worst.grows = rateOf(pieces_.back()) > mean * (1.0 + 1e-9);
-  worst.isWhole = sums[Duration] >= timeOf(sums) * (1.0 - 1e-9);
-  return worst;
-}
-
-bool Steadiness::isSteady(double tolerance, Norm norm) const {
-  const auto found = change(norm);
-  return found && found->isWhole && !found->grows && found->value <= tolerance;
 }
 
 std::vector<std::string> Steadiness::lines() const {
@@ -388,67 +289,6 @@ std::vector<std::string> Steadiness::lines() const {
   }
   lines.push_back(text);
   return lines;
-}
-
-void Steadiness::saveOrLoad(StateArchive& archive) {
-  archive.cells("steady_low", low_, width_);
-  archive.cells("steady_high", high_, width_);
-  std::vector<double> now{last_, pressure_[0], pressure_[1], pressureNow_};
-  now.insert(now.end(), sums_.begin(), sums_.end());
-  archive.shared("steady_piece", now);
-  std::vector<double> earlier;
-  for (const Piece& piece : pieces_) {
-    earlier.insert(earlier.end(), piece.sums.begin(), piece.sums.end());
-    for (const auto* values : {&piece.maximum, &piece.rms, &piece.places})
-      earlier.insert(earlier.end(), values->begin(), values->end());
-  }
-  archive.shared("steady_pieces", earlier);
-  std::vector<double> rows;  // the time and the signals
-  for (std::size_t i = 0; i < times_.size(); ++i) {
-    rows.push_back(times_[i]);
-    for (const RecordedSignal& signal : signals_) rows.push_back(signal.values[i]);
-  }
-  archive.shared("steady_record", rows);
-  std::vector<double> period;
-  if (periodicity_) {
-    period.push_back(periodicity_->period);
-    for (const Periodicity::Range& range : periodicity_->ranges) period.insert(period.end(), {range.low, range.high});
-  }
-  for (const RecordedSignal& signal : signals_) period.push_back(signal.scale);
-  archive.shared("steady_period", period);
-  if (!archive.loading()) return;
-
-  last_ = now.at(0);
-  pressure_ = {now.at(1), now.at(2)};
-  pressureNow_ = now.at(3);
-  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] = now.at(4 + i);
-  pieces_.clear();
-  const std::size_t values = fields_.size() + 1, places = 3 * fields_.size();
-  auto from = earlier.cbegin();
-  const auto take = [&from](std::size_t number) {
-    const auto begin = from;
-    from += static_cast<std::ptrdiff_t>(number);
-    return std::vector<double>(begin, from);
-  };
-  while (from != earlier.cend()) {
-    Piece& piece = pieces_.emplace_back();
-    std::ranges::copy(take(piece.sums.size()), piece.sums.begin());
-    piece.maximum = take(values);
-    piece.rms = take(values);
-    piece.places = take(places);
-  }
-  times_.clear();
-  for (RecordedSignal& signal : signals_) signal.values.clear();
-  for (std::size_t i = 0; i < rows.size(); i += 1 + signals_.size()) {
-    times_.push_back(rows[i]);
-    for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s].values.push_back(rows.at(i + 1 + s));
-  }
-  const std::size_t scalesBegin = period.size() - signals_.size();
-  for (std::size_t s = 0; s < signals_.size(); ++s) signals_[s].scale = period.at(scalesBegin + s);
-  periodicity_.reset();
-  if (scalesBegin == 0) return;
-  periodicity_.emplace().period = period[0];
-  for (std::size_t i = 1; i < scalesBegin; i += 2) periodicity_->ranges.push_back({period.at(i), period.at(i + 1)});
 }
 
 }  // namespace lampblack::flow

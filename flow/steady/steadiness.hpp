@@ -28,6 +28,13 @@ namespace lampblack::flow {
 // in m^3 or per metre or radian.
 [[nodiscard]] double lengthOfDomain(const Mesh& mesh, double volume);
 
+// Least scales by which changes and residuals are divided, of fields that are the same all over the domain.
+struct LeastScales {
+  static constexpr double temperature = 1e-3;  // of the largest
+  static constexpr double massFraction = 1e-6;
+  static constexpr double velocity = 1e-3;  // of the length of the domain over the time
+};
+
 class Steadiness {
  public:
   struct Options {
