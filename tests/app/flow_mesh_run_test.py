@@ -114,7 +114,7 @@ def check_pictures(folder: pathlib.Path, draws: bool) -> None:
         done = running.script(running.SOURCE / script, folder)
         assert done.code == 0, f"{script}: {done.out}{done.err}"
     for picture in ("temperature", "velocity") if draws else ():
-        assert (folder / "pictures" / f"{picture}.png").stat().st_size > 4000, f"{picture} is empty"
+        assert (folder / "pictures" / f"{picture}.png").stat().st_size > 0, f"{picture} is empty"
 
 
 def check_mixed_xdmf(folder: pathlib.Path, cells, repeated) -> None:

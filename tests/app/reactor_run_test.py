@@ -64,7 +64,7 @@ def ignition(program, folder):
     done = subprocess.run([sys.executable, running.SOURCE / "scripts/plot", out], capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
     for picture in ("reactor", "ignition", "sensitivity"):
-        assert (out / "pictures" / f"{picture}.png").stat().st_size > 4000, picture
+        assert (out / "pictures" / f"{picture}.png").stat().st_size > 5000, picture
 
 
 def regular_output(program, folder):
@@ -157,7 +157,7 @@ def soot(program, folder):
                 assert np.max(history["element_imbalance"]) < 1e-13 and np.max(np.abs(history["energy_imbalance"])) < 1e-7
         if program.ranks == 1 and kind == "plug_flow":  # along a duct; in time: ensembles_in_networks
             done = running.script(running.SOURCE / "scripts/plot", out)
-            assert done.code == 0 and (out / "pictures/particles.png").stat().st_size > 4000, done.err
+            assert done.code == 0 and (out / "pictures/particles.png").stat().st_size > 0, done.err
         shutil.rmtree(out)
 
 
@@ -195,7 +195,7 @@ def ensembles_in_networks(program, folder):
     done = running.script(running.SOURCE / "scripts/plot", folder / "two")
     assert done.code == 0, done.err
     for picture in ("reactor_one", "particles_one", "reactor_two", "particles_two"):
-        assert (folder / f"two/pictures/{picture}.png").stat().st_size > 4000, done.out
+        assert (folder / f"two/pictures/{picture}.png").stat().st_size > 0, done.out
     for name in ("one", "two"):
         assert two[f"{name}_soot_volume_fraction"][-1] > 0 and np.max(two[f"{name}_element_imbalance"]) < 1e-12, name
 

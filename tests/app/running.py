@@ -87,6 +87,13 @@ def load_plots() -> None:
     style = importlib.import_module("lampblack.plots.style")
     style.plt.rcParams.update({"figure.constrained_layout.use": False, "savefig.dpi": 40})
     importlib.import_module("matplotlib.axis").Axis._update_ticks = lambda axis: []
+    save = style.Pictures.save
+
+    def save_what_shows_something(pictures, figure, name):
+        assert any(axes.has_data() for axes in figure.axes), f"the picture {name} is empty"
+        save(pictures, figure, name)
+
+    style.Pictures.save = save_what_shows_something
 
 
 def script(path, *arguments, seconds: int = 60) -> Result:
