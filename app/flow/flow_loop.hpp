@@ -130,7 +130,8 @@ class FlowLoop {
   // Collective. Of the state now; kept in norms_.
   void findNorms(const FlowResidual& residual);
   [[nodiscard]] double largestNorm() const;
-  // W/m^3, of the owned cells; W (or per metre or radian) of the domain, collective.
+  // W/m^3, of the owned cells; W (or per metre or radian) of the domain, zero below Steadiness::leastHeat(),
+  // collective.
   [[nodiscard]] std::vector<double> heatRelease() const;
   [[nodiscard]] double totalHeatRelease() const;
   void saveOrLoadSearch(StateArchive& archive);

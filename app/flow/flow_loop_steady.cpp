@@ -48,7 +48,7 @@ double FlowLoop::totalHeatRelease() const {
   const std::vector<double> heat = heatRelease();
   for (std::size_t c = 0; c < heat.size(); ++c) total += heat[c] * domain_->mesh.volume[c];
   MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm_);
-  return total;
+  return std::abs(total) < steadiness_.leastHeat() ? 0.0 : total;
 }
 
 bool FlowLoop::burnsOrCannot() const {

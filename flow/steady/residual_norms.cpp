@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <string>
 #include <utility>
@@ -148,8 +149,11 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
     });
   }
   sums.begin("enthalpy", whole[1] / whole[0], LeastScales::temperature * hottest);
+  std::vector<double> enthalpies(n);  // J/kg, of each species
   forEachCell([&](std::size_t c, const Vector3& place) {
-    sums.left(rates.enthalpy[c] - state.enthalpy[c] * rates.mass[c], place);
+    context.thermo.speciesEnthalpies(state.temperature[c], enthalpies);
+    sums.left(rates.enthalpy[c] - std::inner_product(enthalpies.begin(), enthalpies.end(), &rates.species[c * n], 0.0),
+              place);
     sums.made(m.volume[c] * std::abs(rates.made.enthalpy[c]));
     sums.brought(state.temperature[c]);
   });

@@ -3,11 +3,11 @@
 //
 // The throughflow is what the gas that passes brings by the field's range in the domain, and what is made in the
 // domain: mass M = (what is in the domain)/(the time that changes are told for, Steadiness::time()); of a species M
-// times the range of its mass fraction, and what reactions and particles form of it where they do; of heat M times the
-// mean heat capacity times the range of the temperature, and what is radiated; of momentum M times the largest
-// velocity, no less than a thousandth of the domain's length over the time: a gas at rest has a residual too; of what
-// is carried M times its range per mass of gas, and what is made of it. What mass is left over counts in the equation
-// of mass alone.
+// times the range of its mass fraction, and what reactions and particles form of it where they do; of enthalpy M times
+// the mean heat capacity times the range of the temperature, and what is radiated (what is left of it is without what
+// the species that are left over carry: what would heat the cell); of momentum M times the largest velocity, no less
+// than a thousandth of the domain's length over the time: a gas at rest has a residual too; of what is carried M times
+// its range per mass of gas, and what is made of it. What mass is left over counts in the equation of mass alone.
 #pragma once
 
 #include <string>

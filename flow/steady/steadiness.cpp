@@ -21,6 +21,7 @@ constexpr double recordedTimes = 10.0;    // of time(), that it goes back
 constexpr double recordsPerTime = 500.0;  // at most
 constexpr std::size_t mostRecorded = 8000;
 constexpr double heatOfMass = 1e6;  // J/kg, with which heat release is compared
+constexpr double leastHeatOfMass = 3e-6 * heatOfMass;
 
 struct RecordedQuantity {
   const char* name;
@@ -260,6 +261,12 @@ void Steadiness::findPeriod() {
                                        : heatOfMass * mass / time();
   for (RecordedSignal& signal : signals_) signal.scale = std::max(signal.scale, std::numeric_limits<double>::min());
   periodicity_ = periodicityOf(times_, signals_);
+}
+
+double Steadiness::leastHeat() const {
+  const Integrals sums = pieces_.empty() ? sums_ : sumsOfPieces();
+  const double t = timeOf(sums);
+  return sums[Duration] > 0.0 && t > 0.0 ? leastHeatOfMass * sums[Mass] / (sums[Duration] * t) : 0.0;
 }
 
 std::vector<std::string> Steadiness::lines() const {

@@ -59,6 +59,9 @@ class Steadiness {
   [[nodiscard]] double time() const;
   [[nodiscard]] std::string meaningOfTime() const;  // "residence time: ..."
   [[nodiscard]] double lengthOfDomain() const;      // m, root of its area or third root of its volume
+  // W (per metre or radian), heat release that cannot be told from none: it warms what passes in time() by some
+  // thousandths of a kelvin. In cold gas the rates of traces set free about as much, to and fro.
+  [[nodiscard]] double leastHeat() const;
 
   // Of the field that changes most.
   struct Change {

@@ -180,6 +180,7 @@ TEST(Steadiness, CountsTheTimeThatTheFlowGives) {
   };
   const double density = channel.present.density[0];
   EXPECT_NEAR(timeWith(2.0, 2.0 * density), length / 2.0, 1e-12);
+  EXPECT_NEAR(channel.steadiness.leastHeat(), 3.0 * 2.0 * density * height, 1e-9 * density) << "3 J of a kilogram";
   const double size = std::sqrt(length * height);
   EXPECT_NEAR(timeWith(2.0, 0.0), size / 2.0, 1e-12);
   const double diffusivity = channel.properties.conductivity[0] / channel.properties.heatCapacity[0] / density;
