@@ -60,6 +60,7 @@ struct TimeControl {
   // In place of a run until `end`, which is then infinite, the search for the steady state.
   struct Search : SteadySearch::Options {
     std::optional<double> time = {};  // s, as SteadyControl::time
+    bool triesWithoutFlame = false;   // whether there are attempts in gas that cannot burn
     int coarserMeshes = 0;            // on which the state is sought first
     bool lights = true;               // what was lit by the start and does not burn once the steps in time are over
     std::optional<Stability> stability = {};

@@ -141,7 +141,10 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   search.residual = deck.number("time.steady.residual");
   search.iterations = deck.integer<int>("time.steady.iterations");
   search.returns = deck.integer<int>("time.steady.returns");
-  search.attempts = deck.integer<int>("time.steady.attempts");
+  if (const auto attempts = deck.optionalInteger<int>("time.steady.attempts")) {
+    search.attempts = *attempts;
+    search.triesWithoutFlame = true;
+  }
   search.steps = deck.optionalInteger<int>("time.steady.steps").value_or(0);
   search.coarserMeshes = deck.integer<int>("time.steady.coarser_meshes");
   if (search.coarserMeshes > 0 && (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2))
@@ -214,15 +217,17 @@ void addSteadyKeys(DeckSchema& schema) {
                .atLeast(0)
                .atMost(20)
                .onlyWith("time.mode", steady))
-      .add(
-          integerKey("time.steady.attempts",
-                     "Attempts to find the state by iterations before the flow is established: after 20 steps in time, "
-                     "and each after twice as many. What burns and has no residual is taken; an attempt that fails is "
-                     "taken back, and the steps go on as without it.")
-              .byDefault(fmt::format("{}", usualAttempts))
-              .atLeast(0)
-              .atMost(5)
-              .onlyWith("time.mode", steady))
+      .add(integerKey(
+               "time.steady.attempts",
+               fmt::format("Attempts to find the state by iterations before the flow is established: after 20 "
+                           "steps in time, and each after twice as many. What burns and has no residual is taken; "
+                           "an attempt that fails is taken back, and the steps go on as without it. Absent: {} "
+                           "where a flame burns or the gas could burn, none else; a number holds for any gas.",
+                           usualAttempts))
+               .optional()
+               .atLeast(0)
+               .atMost(5)
+               .onlyWith("time.mode", steady))
       .add(integerKey("time.steady.steps",
                       "Steps in time before the first iterations, in place of as many as the heat release takes to "
                       "become quiet (50 to 300). With 20 most flames are found in a third to a tenth of the time; a "

@@ -126,6 +126,8 @@ class FlowLoop {
   [[nodiscard]] bool isHot() const;
   // Collective. Whether there is a flame in the state, or the mechanism has no reactions.
   [[nodiscard]] bool burnsOrCannot() const;
+  // Collective. Whether an attempt to iterate may be made: something burns, or is hot and could.
+  [[nodiscard]] bool mayAttempt() const;
   [[noreturn]] void giveUp(Outputs& outputs);
   // Collective. Of the state now; kept in norms_.
   void findNorms(const FlowResidual& residual);

@@ -21,6 +21,12 @@ bool FlowLoop::isHot() const {
   return hottest > hotStart;
 }
 
+bool FlowLoop::mayAttempt() const {
+  if (case_.time.search->triesWithoutFlame) return burnsOrCannot() || isHot();
+  if (case_.mechanism->numReactions() == 0) return false;
+  return burnsOrCannot() || (isHot() && couldBurn(domain_->context, domain_->state));
+}
+
 void FlowLoop::lightIfDark(Outputs& outputs) {
   const bool goesOn = search_->phase() == SteadySearch::Phase::Steps && !search_->isSteady();
   if (goesOn || search_->isAttempt() || !startsHot_ || !case_.time.search->lights ||

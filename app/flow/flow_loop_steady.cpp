@@ -82,7 +82,7 @@ void FlowLoop::searchOn(Outputs& outputs) {
             std::make_unique<FlowResidual>(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
       residual_->evaluate(domain_->state);
       findNorms(*residual_);
-      search_->addResidualOfStep(largestNorm(), burnsOrCannot() || isHot());
+      search_->addResidualOfStep(largestNorm(), mayAttempt());
     }
     lightIfDark(outputs);
   }

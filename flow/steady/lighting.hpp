@@ -18,4 +18,8 @@ constexpr double leastRiseOfLighting = 500.0;
 // ranks. Collective.
 std::int64_t lightMixture(const FlowContext& context, State& state);
 
+// Whether a mixture of any two of the gases that inlets and outlets are given, and of the mean gas of the domain,
+// burns to one that is hotter by leastRiseOfLighting or more. Collective.
+bool couldBurn(const FlowContext& context, const State& state);
+
 }  // namespace lampblack::flow

@@ -243,7 +243,8 @@ TEST(SteadyMode, FollowsABranchAndKeepsTheStateThatWasFound) {
 // Whose velocities and mass fluxes are round-off.
 TEST(SteadyMode, FindsGasAtRest) {
   const test::SharedScratchFolder scratch;
-  const std::vector<std::string> still{steady, "boundaries.in={type: wall, side: y-min}", "time.steady.returns=0"};
+  const std::vector<std::string> still{steady, "boundaries.in={type: wall, side: y-min}", "time.steady.returns=0",
+                                       "time.steady.attempts=2"};
   for (const char* out : {"boundaries.out={type: outlet, side: y-max, temperature: 300 K, composition: 'GAS: 1'}",
                           "boundaries.out={type: wall, side: y-max}"}) {
     std::vector<std::string> settings = still;
@@ -321,6 +322,10 @@ TEST(SteadyMode, StepsGoOnAfterAnAttemptAsWithoutIt) {
   // One that does not fail.
   EXPECT_THAT(runChannel(scratch.path() / "early", with(1)).resultsJson,
               AllOf(HasSubstr("\"found_early\": true"), HasSubstr("\"steps_in_time\": 20,")));
+  // Nobody has asked for attempts in a gas that cannot burn.
+  EXPECT_THAT(runChannel(scratch.path() / "unasked", settings).resultsJson,
+              AllOf(HasSubstr("\"attempts_taken_back\": 0"), HasSubstr("\"found_early\": false"),
+                    HasSubstr("\"steps_in_time\": 50,")));
 }
 
 // Stopped in an attempt that fails afterwards, and is taken back to what was before it.
@@ -331,7 +336,8 @@ TEST(SteadyMode, AnAttemptGoesOnFromACheckpoint) {
                                     "time.retries=0",
                                     "checkpoint.steps=25",
                                     "time.steady.residual=1e-12",
-                                    "time.steady.iterations=8"};
+                                    "time.steady.iterations=8",
+                                    "time.steady.attempts=2"};
   FailsFrom whole(1.8e-4), on(1.8e-4);
   EXPECT_THROW(runChannel(scratch.path() / "whole", settings, {}, &whole), NumericsError);
   EXPECT_THROW(runChannel(scratch.path() / "on", settings, scratch.path() / "whole/checkpoint/step_000025.h5", &on),
@@ -346,12 +352,13 @@ TEST(SteadyMode, AnAttemptGoesOnFromACheckpoint) {
 // Through an outlet, between hot walls: six times as dense as the gas that it meets.
 TEST(SteadyMode, ColdGasIsDrawnIntoHot) {
   const test::SharedScratchFolder scratch;
-  const RunRecord found = runChannel(
-      scratch.path() / "found",
-      {steady, "time.steady.returns=0", "mesh.x=[{to: 6 mm, cells: 6}]", "mesh.y=[{to: 6 mm, cells: 6}]",
-       "initial.temperature=1800 K", "boundaries.cold.temperature=1800 K", "boundaries.adiabatic.temperature=1800 K",
-       "boundaries.in={type: inlet, side: y-min, temperature: 1800 K, composition: 'GAS: 1', formula: "
-       "{velocity: '-0.3'}}"});
+  const RunRecord found =
+      runChannel(scratch.path() / "found",
+                 {steady, "time.steady.returns=0", "time.steady.attempts=2", "mesh.x=[{to: 6 mm, cells: 6}]",
+                  "mesh.y=[{to: 6 mm, cells: 6}]", "initial.temperature=1800 K", "boundaries.cold.temperature=1800 K",
+                  "boundaries.adiabatic.temperature=1800 K",
+                  "boundaries.in={type: inlet, side: y-min, temperature: 1800 K, composition: 'GAS: 1', formula: "
+                  "{velocity: '-0.3'}}"});
   EXPECT_THAT(found.resultsJson, AllOf(HasSubstr("\"steady\": true"), HasSubstr("\"found_early\": true")));
   const Hdf5Reader results(scratch.path() / "found/results.h5");
   EXPECT_LT(std::ranges::min(lastOf(results, "temperature")), 500.0);

@@ -57,6 +57,27 @@ TEST_F(Lighting, BurnsWhatBurnsAndNothingElse) {
   EXPECT_EQ(lightMixture(box.context, state), 0) << "it burns already";
 }
 
+TEST_F(Lighting, KnowsWhatCouldBurn) {
+  const std::vector<double> air = gas.massFractions("O2: 1, N2: 3.76"), fuel = gas.massFractions("H2: 1");
+  for (BoundaryCondition& boundary : box.context.boundaries) boundary.Y.clear();
+  EXPECT_TRUE(couldBurn(box.context, state)) << "the mean of its cells";
+  const auto fillWith = [&](const std::vector<double>& Y) {
+    for (int c = 0; c < box.mesh.owned; ++c) std::ranges::copy(Y, &state.Y[at(c) * Y.size()]);
+  };
+  fillWith(air);
+  EXPECT_FALSE(couldBurn(box.context, state));
+  box.context.boundaries[0].Y = air;
+  EXPECT_FALSE(couldBurn(box.context, state));
+  box.context.boundaries[0].Y = gas.massFractions("H2: 0.05, N2: 1");
+  EXPECT_FALSE(couldBurn(box.context, state)) << "too little of it";
+  box.context.boundaries[0].Y = fuel;
+  EXPECT_TRUE(couldBurn(box.context, state));
+  fillWith(gas.massFractions("H2O: 1, N2: 2"));
+  EXPECT_FALSE(couldBurn(box.context, state)) << "fuel alone";
+  box.context.boundaries[1].Y = air;
+  EXPECT_TRUE(couldBurn(box.context, state)) << "two boundaries";
+}
+
 TEST_F(Lighting, KeepsTheEnthalpyBelowTheLimit) {
   const std::vector<double> lean = gas.massFractions("H2: 1, O2: 1, N2: 3.76");
   for (int c = 0; c < box.mesh.owned; ++c) {
