@@ -141,6 +141,7 @@ void FaceState::prepare(const State& state, std::span<const double> Y) {
   std::vector<FieldView> gradients{{temperatureGradient_, m.dimension}};
   if (carried_ > 0) {
     gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_, carriedKnown_);
+    keepAmountsAtWalls();
     gradients.push_back({carriedGradient_, m.dimension * carried_});
   }
   context_.halo.update(gradients);
@@ -200,6 +201,24 @@ void FaceState::interpolate(const State& state, int face, double direction, std:
 
 double FaceState::carriedPerMass(int face, int scalar, double direction) const {
   return limited(YUpwind_.of(face, direction), face, perMass_, carriedGradient_, carriedBounds_, carried_, scalar);
+}
+
+// What a wall holds has in the cells beside it the slope of the cell's other side, which may lead to less than nothing
+// at the wall. With that slope the face on the other side would take from a cell that has nothing.
+void FaceState::keepAmountsAtWalls() {
+  const Mesh& m = context_.mesh;
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (!carriedBoundaries_.holdsAny(face) || context_.boundaryOf(face).kind != BoundaryKind::Wall) continue;
+    const std::span<const ScalarBoundary> given = carriedBoundaries_.at(face);
+    const Vector3& step = m.step[face];
+    for (int s = 0; s < carried_; ++s) {
+      const int i = m.low[face] * carried_ + s;
+      double* gradient = &carriedGradient_[static_cast<std::size_t>(i) * m.dimension];
+      const double lacks = -std::max(perMass_[i], 0.0) - slopeAlong(step, gradient, m.dimension);
+      if (!given[s].isHeld || lacks <= 0.0) continue;
+      for (int axis = 0; axis < m.dimension; ++axis) gradient[axis] += lacks / dot(step, step) * step[axis];
+    }
+  }
 }
 
 double FaceState::carriedRiseToWall(int face, int scalar) const {

@@ -47,6 +47,7 @@ class FaceState {
  private:
   void setBoundaries(const State& state);
   void setCarriedBoundaries();
+  void keepAmountsAtWalls();
   // Values at a face of what is fed with a given flux, where it is.
   void limitFed(const State& state, int face);
   // Limited value at an interior face of a field with its gradient in the cells.

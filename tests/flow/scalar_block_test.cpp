@@ -332,6 +332,37 @@ TEST(ScalarBlocks, CellsSeeWhatAnInletHolds) {
   }
 }
 
+// Amounts that fall along a line towards a wall which holds them: to something at the wall, along the line to the face;
+// to nothing before the wall, no more than the cell beside it has, and nothing of a cell that has nothing.
+TEST(ScalarBlocks, ACellBesideAWallGivesNoMoreThanItHas) {
+  Channel channel(4e-3, 4, 2e-3, 2);
+  const Box& box = channel.box;
+  Toy toy;
+  toy.given["xmax"] = {.value = 0.0, .isHeld = true};
+  State state = channel.stateOf({toy.block(box.context)});
+  const auto faceValue = [&](double beside, double direction) {
+    for (int c = 0; c < box.mesh.cells; ++c) {
+      const double along = (3.5e-3 - box.mesh.centre[at(c)][0]) / 1e-3;  // cells from the one beside the wall
+      state.carried[at(c)] = state.density[at(c)] * (beside + along);
+    }
+    FaceState faces(box.context, state);
+    faces.prepare(state, state.Y);
+    double found = 0.0;
+    for (int face = 0; face < box.mesh.interiorFaces; ++face)
+      if (box.mesh.low[at(face)] < box.mesh.owned && std::abs(box.mesh.faceCentre[at(face)][0] - 3e-3) < 1e-6)
+        found = std::max(found, faces.carriedPerMass(face, 0, direction));
+    MPI_Allreduce(MPI_IN_PLACE, &found, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    return found;
+  };
+  EXPECT_NEAR(faceValue(0.6, -1.0), 1.1, 1e-12) << "0.1 at the wall";
+  EXPECT_EQ(faceValue(0.0, -1.0), 0.0);
+  for (const double beside : {1e-6, 0.1, 0.3}) {
+    EXPECT_GE(faceValue(beside, -1.0), beside);
+    EXPECT_LT(faceValue(beside, -1.0), 3.0 * beside) << beside;
+  }
+  EXPECT_NEAR(faceValue(0.1, 1.0), 0.6, 1e-12) << "from the other side";
+}
+
 // An equation of its own, whose diffusivity and implicit sink go by the strain of the flow: D = b S and a S c. All that
 // a further equation has to bring.
 struct StrainedToy : Operator {
