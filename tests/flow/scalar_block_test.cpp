@@ -360,6 +360,9 @@ TEST(ScalarBlocks, ACellBesideAWallGivesNoMoreThanItHas) {
     EXPECT_GE(faceValue(beside, -1.0), beside);
     EXPECT_LT(faceValue(beside, -1.0), 3.0 * beside) << beside;
   }
+  // The gradient leads to zero at the wall, half a cell away: 0.6, the mean of 1 ahead and 0.2 behind, whose harmonic
+  // mean is a third.
+  EXPECT_NEAR(faceValue(0.3, -1.0), 0.3 + 0.5 / 3.0, 1e-12);
   EXPECT_NEAR(faceValue(0.1, 1.0), 0.6, 1e-12) << "from the other side";
 }
 
