@@ -18,14 +18,16 @@ struct InitialFields {
   FieldFunction swirl;                          // m/s, about the axis; empty: none, or at rest
   std::optional<double> thermodynamicPressure;  // Pa, of a closed vessel; none: that of before
   std::vector<FieldFunction> carried;           // per m3, of each carried scalar of all blocks; empty: none
+  // Of a turbulence model: its variables per kg, then the eddy viscosity, Pa s; empty: those of its start.
+  std::vector<FieldFunction> turbulence;
 
   [[nodiscard]] bool isEmpty() const {
     return gas.isEmpty() && !velocity[0] && !velocity[1] && !velocity[2] && !swirl && carried.empty();
   }
 };
 
-// Changes what is given, at time zero; the rest of the state is that of before (halo included). InputError with the
-// place where a value cannot be.
+// Changes what is given but turbulence (TurbulenceOperator::setStart()), at time zero; the rest of the state is that of
+// before (halo included). InputError with the place where a value cannot be.
 void setInitialFields(const FlowContext& context, const InitialFields& fields, State& state);
 
 }  // namespace lampblack::flow

@@ -54,7 +54,8 @@ void readInitialFields(const Deck& deck, FlowCase& flowCase) {
             .velocity = {},
             .swirl = given.find("swirl_velocity"),
             .thermodynamicPressure = {},
-            .carried = {}};
+            .carried = {},
+            .turbulence = {}};
   for (std::size_t axis = 0; axis < axes.size(); ++axis) fields.velocity[axis] = given.find("velocity_" + axes[axis]);
   for (const char* whole : {"initial.flame1d", "initial.flow"}) {
     if (!deck.has(whole)) continue;
@@ -313,6 +314,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readBoundaries(deck, flowCase);
   flowCase.chemistry.shareWork = deck.boolean("chemistry.share_work");
   readSoot(deck, flowCase);
+  readTurbulenceModel(deck, flowCase);
   readInitial(deck, flowCase);
   readCarriedStart(deck, flowCase);
   readGravity(deck, flowCase);

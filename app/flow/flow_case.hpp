@@ -138,6 +138,8 @@ struct MeshFile {
 struct TurbulenceCase {
   std::shared_ptr<const TurbulenceModel> model;  // null: none
   EddyNumbers numbers;
+  bool ignoresWalls = false;  // the wall distance is infinite
+  double mostRatio = 0.0;     // eddy viscosity over that of the molecules, beyond which a run ends
   FreeStream start;
   std::vector<FreeStream> boundaries;  // of each, what comes in there
 };

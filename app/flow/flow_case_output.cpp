@@ -134,6 +134,8 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
         return boundary.kind == BoundaryKind::Wall;
       }))
     throw deck.error("output.wall_distance", "no boundary of this deck is a wall; expected false");
+  if (output.wallDistance && flowCase.turbulence.ignoresWalls)
+    throw deck.error("output.wall_distance", "expected false where 'turbulence.wall_distance' is infinite");
   output.storage = {deck.integer<int>("output.compression"), deck.optionalInteger<int>("output.writers").value_or(0)};
   output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
   flowCase.checkpoint = {deck.optionalInteger<std::int64_t>("checkpoint.steps"), deck.quantity("checkpoint.wall_time"),

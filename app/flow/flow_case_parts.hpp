@@ -51,6 +51,8 @@ void readTime(const Deck& deck, FlowCase& flowCase);
 // have been read.
 void addTurbulenceKeys(DeckSchema& schema);
 void readTurbulence(const Deck& deck, FlowCase& flowCase);
+// Which model, and nothing else: before the start, which may have its variables.
+void readTurbulenceModel(const Deck& deck, FlowCase& flowCase);
 
 // The section output: its keys, and reading it when mesh, boundaries and times have been read.
 void addOutputKeys(DeckSchema& schema);

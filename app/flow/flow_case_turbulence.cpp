@@ -45,6 +45,14 @@ FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCas
     throw deck.error(intensityKey, "expected an inlet with a velocity, whose turbulent energy is above zero");
   // omega = k^(1/2)/(C_mu^(1/4) l), with C_mu = 0.09.
   if (length) stream.eddyViscosity = std::sqrt(stream.energy) * std::pow(0.09, 0.25) * *length;
+  if (length && !flowCase.meshFile) {
+    double most = 0.0;
+    for (const std::vector<double>& vertices : flowCase.mesh.vertices)
+      if (!vertices.empty()) most = std::max(most, vertices.back() - vertices.front());
+    if (*length > most)
+      flowCase.notes.push_back(
+          fmt::format("{}.turbulence_length: {:g} m, more than the mesh is long", section, *length));
+  }
   if (*intensity > 1.0) flowCase.notes.push_back(fmt::format("{}: more than one, {:g}", intensityKey, *intensity));
   return stream;
 }
@@ -81,6 +89,17 @@ void addTurbulenceKeys(DeckSchema& schema) {
                .byDefault("10")
                .above(0)
                .onlyWith("turbulence.model", models))
+      .add(choiceKey(
+               "turbulence.wall_distance", {"walls", "infinite"},
+               "Distances from walls, by which sa, sst, sst1994 and wang go. infinite: as if there were no walls, for "
+               "jets and other flows far from them.")
+               .byDefault("walls")
+               .onlyWith("turbulence.model", models))
+      .add(numberKey("turbulence.largest_eddy_viscosity_ratio",
+                     "A run ends where the eddy viscosity over that of the molecules becomes larger.")
+               .byDefault("1e5")
+               .above(0)
+               .onlyWith("turbulence.model", models))
       .add(
           quantityKey("turbulence.energy", units::velocity * units::velocity,
                       "Turbulent kinetic energy k at the start, and of gas that outlets draw in, '0.3 m^2/s^2'; models "
@@ -108,6 +127,11 @@ void addTurbulenceKeys(DeckSchema& schema) {
                .onlyWith("boundaries.*.type", {"inlet"}));
 }
 
+void readTurbulenceModel(const Deck& deck, FlowCase& flowCase) {
+  if (const std::string name = deck.choice("turbulence.model"); name != "none")
+    flowCase.turbulence.model = turbulenceModel(name);
+}
+
 void readTurbulence(const Deck& deck, FlowCase& flowCase) {
   const std::string name = deck.choice("turbulence.model");
   if (name == "none") {
@@ -118,20 +142,23 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
     return;
   }
   TurbulenceCase& turbulence = flowCase.turbulence;
-  turbulence.model = turbulenceModel(name);
+  turbulence.ignoresWalls = deck.choice("turbulence.wall_distance") == "infinite";
+  turbulence.mostRatio = deck.number("turbulence.largest_eddy_viscosity_ratio");
   turbulence.numbers = {deck.number("turbulence.prandtl"), deck.number("turbulence.schmidt")};
   if (flowCase.ensembles)
     throw deck.error("turbulence.model", "ensembles in the cells do not know how eddies mix them; expected none");
   if (flowCase.swirls)
     throw deck.error("turbulence.model", "the models do not know the strain of a flow that swirls; expected none");
-  if (turbulence.model->needsWallDistance() &&
+  if (turbulence.model->needsWallDistance() && !turbulence.ignoresWalls &&
       std::ranges::none_of(flowCase.boundaries,
                            [](const BoundaryCondition& boundary) { return boundary.isNoSlipWall(); })) {
     std::vector<std::string> names;
     for (const BoundaryCondition& boundary : flowCase.boundaries) names.push_back(boundary.name);
-    throw deck.error("turbulence.model",
-                     fmt::format("'{}' goes by the distance from walls, and no boundary is a wall without slip: {}",
-                                 name, fmt::join(names, ", ")));
+    throw deck.error(
+        "turbulence.model",
+        fmt::format("'{}' goes by the distance from walls, and no boundary is a wall without slip: {}; where all "
+                    "of them are far away 'wall_distance: infinite' does without",
+                    name, fmt::join(names, ", ")));
   }
   const Stream first{flowCase.initial.low.temperature, flowCase.initial.low.Y};
   turbulence.start.viscosity = kinematicViscosity(flowCase, first.temperature, first.Y);

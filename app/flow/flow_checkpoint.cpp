@@ -82,8 +82,11 @@ Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedS
     else
       extents += fmt::format("{} {} {} {};", patch.axis, patch.atMax, patch.from, patch.to);
   }
+  // The variables of a turbulence model stand behind those of particles.
+  const TurbulenceModel* turbulence = flowCase.turbulence.model.get();
+  const std::size_t particles = scalars.size() - (turbulence != nullptr ? turbulence->variables().size() : 0);
   std::string carried;
-  for (const CarriedScalar& scalar : scalars)
+  for (const CarriedScalar& scalar : std::span(scalars).first(particles))
     carried += fmt::format("{} {} {} {};", scalar.name, scalar.unit, scalar.description, scalar.thermophoresis);
   const Mechanism& mechanism = *flowCase.mechanism;
   return {
@@ -92,7 +95,8 @@ Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedS
       {"mechanism", hashed(fmt::format("{} species, {} reactions", mechanism.numSpecies(), mechanism.numReactions()),
                            mechanismYaml(mechanism))},
       {"pressure", fmt::format("{} Pa", flowCase.pressure)},
-      {"particle model", scalars.empty() ? "no scalars" : hashed(fmt::format("{} scalars", scalars.size()), carried)}};
+      {"particle model", particles == 0 ? "no scalars" : hashed(fmt::format("{} scalars", particles), carried)},
+      {"turbulence model", turbulence != nullptr ? turbulence->name() : "nothing"}};
 }
 
 FlowCheckpoints::FlowCheckpoints(MPI_Comm comm, CheckpointControl control, Fingerprint fingerprint,

@@ -18,8 +18,8 @@ namespace lampblack::app {
 // Global numbers of the cells and faces of a mesh.
 StateNumbers stateNumbers(const Mesh& mesh);
 
-// What decides what the numbers of a checkpoint mean: mesh, boundaries and their kinds, mechanism, pressure, coupling
-// of the chemistry, carried scalars.
+// What decides what the numbers of a checkpoint mean: mesh, boundaries and their kinds, mechanism, pressure,
+// scalars of particles, turbulence model.
 Fingerprint flowFingerprint(const FlowCase& flowCase, const std::vector<CarriedScalar>& scalars);
 
 class FlowCheckpoints {

@@ -1,6 +1,7 @@
 #include "app/flow/flow_domain.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -18,6 +19,8 @@ std::shared_ptr<BoundaryValues> varyingValues(const Mesh& mesh, const FlowCase& 
 std::vector<double> distancesFromWalls(const Mesh& mesh, HaloExchange& halo, const FlowCase& flowCase) {
   const TurbulenceModel* turbulence = flowCase.turbulence.model.get();
   const bool isOfModel = turbulence != nullptr && turbulence->needsWallDistance();
+  if (isOfModel && flowCase.turbulence.ignoresWalls)
+    return std::vector<double>(static_cast<std::size_t>(mesh.owned), std::numeric_limits<double>::infinity());
   if (!flowCase.output.wallDistance && !isOfModel) return {};
   std::vector<int> walls;
   for (std::size_t b = 0; b < flowCase.boundaries.size(); ++b)
@@ -109,7 +112,8 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
     operators.push_back(radiation.get());
   }
   if (flowCase.turbulence.model) {
-    turbulence = std::make_unique<TurbulenceOperator>(context, state, flowCase.turbulence.model, flow.properties());
+    turbulence = std::make_unique<TurbulenceOperator>(context, state, flowCase.turbulence.model, flow.properties(),
+                                                      flowCase.turbulence.mostRatio);
     operators.push_back(turbulence.get());
   }
   operators.push_back(&undershoots);
@@ -124,7 +128,7 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
     for (int c = 0; c < mesh.owned; ++c)
       ensembles->initialise(state, c, flowCase.startPopulation(static_cast<std::uint64_t>(mesh.naturalCell[c])));
   });
-  if (turbulence) turbulence->setStart(state, flowCase.turbulence.start);
+  if (turbulence) turbulence->setStart(state, flowCase.turbulence.start, flowCase.initialFields.turbulence);
   flow.initialise(state, flowCase.time.firstStep);
 }
 

@@ -162,6 +162,22 @@ bool hasScalars(const Hdf5Reader& results, const std::string& step, const std::v
   return false;
 }
 
+// Names of the fields that a start of this run's turbulence model takes; empty where there is no model, or where the
+// earlier run has not all of them, of which the user is told.
+std::vector<std::string> turbulenceFields(const Hdf5Reader& results, const std::string& step, FlowCase& flowCase) {
+  const TurbulenceModel* model = flowCase.turbulence.model.get();
+  if (model == nullptr) return {};
+  std::vector<std::string> names;
+  for (const TurbulenceModel::Variable& variable : model->variables()) names.push_back(variable.name);
+  names.emplace_back("eddy_viscosity");
+  for (const std::string& name : names) {
+    if (results.has(step + "/" + name)) continue;
+    flowCase.notes.push_back(fmt::format("{} has no '{}': turbulence starts as the deck says", results.name(), name));
+    return {};
+  }
+  return names;
+}
+
 std::vector<CarriedScalar> carriedScalars(const FlowCase& flowCase) {
   if (!flowCase.carried) return {};
   return CarriedOperator::blockOf(*flowCase.carried, {}).scalars;
@@ -238,8 +254,9 @@ void fillSolids(GridTable::Numbers& numbers) {
 void addInitialFlowKeys(DeckSchema& schema) {
   schema
       .section(section, Presence::optional,
-               "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot where its "
-               "model is the earlier run's; 'layer' is none. The mechanism and the model may be others: species go by "
+               "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot and "
+               "turbulence where their models are the earlier run's; 'layer' is none. The mechanism and the model may "
+               "be others: species go by "
                "name. Linear between the earlier run's cells, beside solids as in the cell next to them. A closed "
                "vessel takes the earlier run's thermodynamic pressure in place of 'pressure'.",
                {{"initial.layer", {"none"}}})
@@ -268,6 +285,8 @@ InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<d
   std::vector<CarriedScalar> scalars = carriedScalars(flowCase);
   if (!hasScalars(results, step, scalars, flowCase)) scalars.clear();
   for (const CarriedScalar& scalar : scalars) numbers.columns.push_back(results.numbers(step + "/" + scalar.name));
+  const std::vector<std::string> turbulence = turbulenceFields(results, step, flowCase);
+  for (const std::string& name : turbulence) numbers.columns.push_back(results.numbers(step + "/" + name));
   const bool swirls = results.has(step + "/" + swirl);
   if (swirls) numbers.columns.push_back(results.numbers(step + "/" + swirl));
   const std::vector<double> velocity = results.numbers(step + "/velocity");
@@ -290,6 +309,7 @@ InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<d
     fields.gas.moleFractions.emplace_back(
         k, [value = next()](const Vector3& place, double t) { return std::max(value(place, t), 0.0); });
   for (std::size_t s = 0; s < scalars.size(); ++s) fields.carried.push_back(next());
+  for (std::size_t v = 0; v < turbulence.size(); ++v) fields.turbulence.push_back(next());
   if (swirls) fields.swirl = next();
   for (FieldFunction& velocityAlong : fields.velocity) velocityAlong = next();
   return fields;

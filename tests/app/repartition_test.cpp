@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <map>
 #include <memory>
 #include <numeric>
 
 #include "app/flow/flow_loop.hpp"
 #include "core/modules.hpp"
 #include "io/checkpoint_folder.hpp"
-#include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"
+#include "tests/app/flow_results.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/shared_scratch.hpp"
 
@@ -19,6 +18,10 @@ namespace lampblack::app {
 namespace {
 
 using test::at;
+using test::expectSameBits;
+using test::expectSameFields;
+using test::Ran;
+using test::readBack;
 
 // Cells where the fuel comes in cost their rank a hundred times what their transport does.
 class CostlyBand final : public Operator {
@@ -53,32 +56,6 @@ std::vector<std::string> settings(const std::vector<std::string>& more = {}) {
 // Never, as a run that looks for it.
 const std::string steady = "time.steady={time: 12 us, tolerance: 1e-9}";
 
-struct Ran {
-  std::map<std::string, std::vector<double>> fields, history, tables;
-  std::int64_t partitions = 0;
-};
-
-Ran readBack(const std::filesystem::path& results) {
-  const Hdf5Reader file(results);
-  Ran ran;
-  for (const std::string& step : file.names("/steps"))
-    for (const std::string& field : file.names("/steps/" + step))
-      ran.fields[step + "/" + field] = file.numbers("/steps/" + step + "/" + field);
-  for (const std::string& column : file.names("/history")) {
-    std::vector<double>& values = ran.history[column] = file.numbers("/history/" + column);
-    std::ranges::replace_if(
-        values, [](double value) { return std::isnan(value); }, -1.0);  // to compare them
-  }
-  for (const std::string group : {"/probes", "/boundaries"})
-    for (const std::string& table : file.names(group))
-      for (const std::string& column : file.names(group + "/" + table)) {
-        const std::string path = group + "/" + table + "/" + column;
-        if (column == "deposit") continue;  // a group
-        ran.tables[path] = file.numbers(path);
-      }
-  return ran;
-}
-
 struct Task {
   std::filesystem::path folder;
   std::vector<std::string> overrides;
@@ -111,44 +88,6 @@ Ran run(const Task& task) {
   Ran ran = readBack(task.folder / "results.h5");
   ran.partitions = partitions;
   return ran;
-}
-
-// What ranks differ in, and what is round-off.
-bool isOwn(const std::string& name) {
-  for (const char* part : {"imbalance", "error", "iterations", "steps", "cells", "minimum_mass_fraction", "undershoot",
-                           "diameter", "retries", "pressure"})
-    if (name.find(part) != std::string::npos) return true;
-  return false;
-}
-
-// The solvers' tolerances are 1e-9 of the pressure and 1e-6 of the chemistry, whose steps fall otherwise.
-void expectSameFields(const Ran& found, const Ran& expected) {
-  ASSERT_EQ(found.fields.size(), expected.fields.size());
-  ASSERT_EQ(found.history.size(), expected.history.size());
-  ASSERT_EQ(found.tables.size(), expected.tables.size());
-  ASSERT_FALSE(expected.tables.empty());
-  for (const auto of : {&Ran::fields, &Ran::history, &Ran::tables})
-    for (const auto& [name, values] : expected.*of) {
-      if (isOwn(name)) continue;
-      const std::vector<double>& others = (found.*of).at(name);
-      ASSERT_EQ(others.size(), values.size()) << name;
-      double scale = 0.0, difference = 0.0;
-      for (std::size_t i = 0; i < values.size(); ++i) {
-        scale = std::max(scale, std::abs(values[i]));
-        difference = std::max(difference, std::abs(others[i] - values[i]));
-      }
-      EXPECT_LE(difference, 1e-5 * scale + 1e-12) << name;
-    }
-  for (const auto& [name, values] : found.history)
-    if (name.ends_with("budget_error")) {
-      EXPECT_LT(*std::ranges::max_element(values), 1e-12) << name;
-    }
-}
-
-void expectSameBits(const Ran& found, const Ran& expected) {
-  EXPECT_EQ(found.fields, expected.fields);
-  EXPECT_EQ(found.history, expected.history);
-  EXPECT_EQ(found.tables, expected.tables);
 }
 
 // Pieces of the curve end at cells: a rank is a cell off at most at either end.

@@ -40,10 +40,12 @@ ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std:
 }
 
 TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& state,
-                                       std::shared_ptr<const TurbulenceModel> model, const GasProperties& properties)
+                                       std::shared_ptr<const TurbulenceModel> model, const GasProperties& properties,
+                                       double mostRatio)
     : context_(context),
       model_(std::move(model)),
       properties_(properties),
+      mostRatio_(mostRatio),
       first_(static_cast<std::size_t>(state.block(owner).first)),
       count_(static_cast<std::size_t>(state.block(owner).count)),
       velocityGradient_(context),
@@ -84,13 +86,15 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   findLayers();
 }
 
-void TurbulenceOperator::setStart(State& state, const FreeStream& start) const {
+void TurbulenceOperator::setStart(State& state, const FreeStream& start, std::span<const FieldFunction> fields) const {
   const auto values = model_->freeStream(start);
   const std::size_t n = state.scalars.size();
-  for (std::size_t c = 0; c < state.density.size(); ++c)
-    for (std::size_t v = 0; v < count_; ++v) state.carried[c * n + first_ + v] = state.density[c] * values[v];
-  for (std::size_t c = 0; c < state.density.size(); ++c)
-    state.eddyViscosity[c] = state.density[c] * start.eddyViscosity;
+  for (std::size_t c = 0; c < state.density.size(); ++c) {
+    const auto given = [&](std::size_t f) { return fields[f](context_.mesh.centre[c], 0.0); };
+    for (std::size_t v = 0; v < count_; ++v)
+      state.carried[c * n + first_ + v] = state.density[c] * (fields.empty() ? values[v] : given(v));
+    state.eddyViscosity[c] = fields.empty() ? state.density[c] * start.eddyViscosity : given(count_);
+  }
 }
 
 void TurbulenceOperator::advance(State& state, double, double dt) {

@@ -5,17 +5,20 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/modules.hpp"
+#include "flow/boundaries/gas_variation.hpp"
 #include "flow/boundaries/wall_law.hpp"
 #include "flow/discretisation/velocity_gradient.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
 #include "flow/operator.hpp"
+#include "flow/peak.hpp"
 #include "flow/properties/gas_properties.hpp"
 
 namespace lampblack::flow {
@@ -27,12 +30,14 @@ class TurbulenceOperator : public Operator {
                              const std::vector<FreeStream>& boundaries);
 
   // `properties`: of transport, its molecular viscosities. The state has the model's block. The context has wall
-  // distances where the model needs them (std::logic_error). Collective.
+  // distances where the model needs them (std::logic_error). `mostRatio`: of the eddy viscosity over that of the
+  // molecules, beyond which checkResult() fails. Collective.
   TurbulenceOperator(const FlowContext& context, const State& state, std::shared_ptr<const TurbulenceModel> model,
-                     const GasProperties& properties);
+                     const GasProperties& properties, double mostRatio = std::numeric_limits<double>::infinity());
 
-  // The same everywhere. The state has its density.
-  void setStart(State& state, const FreeStream& start) const;
+  // The same everywhere, or the variables per kg and the eddy viscosity of `fields`, where they are. The state has its
+  // density.
+  void setStart(State& state, const FreeStream& start, std::span<const FieldFunction> fields = {}) const;
 
   [[nodiscard]] const char* name() const override { return "turbulence"; }
   // Moves the eddy viscosity towards that of the variables: all the way where the step is short against the strain's
@@ -50,6 +55,7 @@ class TurbulenceOperator : public Operator {
 
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
+  void checkResult() const override;
   void fields(const State& state, const FieldSink& sink) const override;
 
   // At a wall that the gas sticks to: Pa, friction along it; y+ of the cell's centre.
@@ -76,6 +82,7 @@ class TurbulenceOperator : public Operator {
   const FlowContext& context_;
   std::shared_ptr<const TurbulenceModel> model_;
   const GasProperties& properties_;
+  double mostRatio_;
   std::size_t first_, count_;
   VelocityGradient velocityGradient_;
   Gradient gradient_;
@@ -91,6 +98,7 @@ class TurbulenceOperator : public Operator {
   std::vector<double> layerArea_;
   struct {
     double leastYPlus = 0.0, mostYPlus = 0.0, outside = 0.0;  // outside: share of the walls' area
+    Peak ratio;                                               // of the eddy viscosity over that of the molecules
   } told_;
   // Of the local cells and boundary faces: the variables per mass; 1/s.
   std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_,

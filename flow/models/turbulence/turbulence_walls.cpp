@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "core/errors.hpp"
+#include "core/first_error.hpp"
 #include "flow/models/turbulence/turbulence_operator.hpp"
 
 namespace lampblack::flow {
@@ -91,7 +93,7 @@ std::vector<Quantity> TurbulenceOperator::historyColumns() const {
 std::vector<double> TurbulenceOperator::historyValues(const State& state) {
   const Mesh& m = context_.mesh;
   velocityGradient_.setBoundary(state.velocity);
-  std::array<double, 3> extremes{-std::numeric_limits<double>::max(), 0.0, 0.0};  // -least y+, largest y+, ratio
+  std::array<double, 2> extremes{-std::numeric_limits<double>::max(), 0.0};  // -least y+, largest y+
   std::array<double, 5> sums{};  // area, y+, shear, cells, area out of the range
   const auto [least, most] = range();
   for (int face = m.interiorFaces; face < m.faces; ++face) {
@@ -106,20 +108,38 @@ std::vector<double> TurbulenceOperator::historyValues(const State& state) {
   }
   const std::size_t n = state.scalars.size();
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    extremes[2] = std::max(extremes[2], state.eddyViscosity[c] / properties_.viscosity[c]);
     for (std::size_t v = 0; v < count_; ++v)
       if (state.carried[c * n + first_ + v] < 0.0) {
         sums[3] += 1.0;
         break;
       }
   }
-  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, extremes.data(), 2, MPI_DOUBLE, MPI_MAX, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), 5, MPI_DOUBLE, MPI_SUM, m.comm);
   const bool hasWalls = sums[0] > 0.0;
-  told_ = {hasWalls ? -extremes[0] : 0.0, extremes[1], hasWalls ? sums[4] / sums[0] : 0.0};
+  const Peak ratio = peakOf(m, [&](int c) { return state.eddyViscosity[c] / properties_.viscosity[c]; });
+  told_ = {hasWalls ? -extremes[0] : 0.0, extremes[1], hasWalls ? sums[4] / sums[0] : 0.0, ratio};
   return {told_.leastYPlus, hasWalls ? sums[1] / sums[0] : 0.0, told_.mostYPlus,
-          told_.outside,    hasWalls ? sums[2] / sums[0] : 0.0, extremes[2],
+          told_.outside,    hasWalls ? sums[2] / sums[0] : 0.0, ratio.value,
           sums[3]};
+}
+
+void TurbulenceOperator::checkResult() const {
+  if (told_.ratio.value <= mostRatio_) return;
+  const Mesh& m = context_.mesh;
+  std::array<double, TurbulentCell::most> values{};
+  values.fill(-std::numeric_limits<double>::max());
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    if (m.centre[c] == told_.ratio.place) std::copy_n(&values_[c * count_], count_, values.begin());
+  MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_DOUBLE, MPI_MAX, m.comm);
+  std::string with;
+  const auto variables = model_->variables();
+  for (std::size_t v = 0; v < count_; ++v)
+    with += fmt::format(", {} {:.4g} {}", variables[v].name, values[v], variables[v].unit);
+  raiseTogether(m.comm, NumericsError(fmt::format(
+                            "in the cell at {}: the eddy viscosity is {:.3g} times that of the molecules, more than "
+                            "{:.3g} (turbulence.largest_eddy_viscosity_ratio){}",
+                            placeText(told_.ratio.place, m.dimension), told_.ratio.value, mostRatio_, with)));
 }
 
 std::array<double, 2> TurbulenceOperator::range() const {

@@ -1,0 +1,107 @@
+// Decks of turbulent flows that cannot be, each with its message, and those of which the user is told.
+#include <string>
+#include <vector>
+
+#include "tests/app/flow_runs.hpp"
+#include "tests/messages.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Deck channelDeck(const std::vector<std::string>& overrides) {
+  return test::flowDeck("perfect_gas_1.yaml", R"(
+turbulence: {model: sst, energy: 0.1 m^2/s^2}
+mesh: {geometry: planar, x: [{to: 4 mm, cells: 5}], y: [{to: 8 mm, cells: 8}]}
+boundaries:
+  in: {type: inlet, side: y-min, velocity: 3 m/s, temperature: 300 K, composition: "GAS: 1"}
+  out: {type: outlet, side: y-max, temperature: 300 K, composition: "GAS: 1"}
+  left: {type: wall, side: x-min}
+  right: {type: wall, side: x-max, slip: true}
+initial: {layer: none, composition: "GAS: 1", temperature: 300 K}
+time: {end: 1 ms, maximum_step: 0.1 ms}
+)",
+                        overrides);
+}
+
+const std::string atInlet = "boundaries.in.turbulence_intensity=0.1",
+                  withLength = "boundaries.in.turbulence_length=1 mm",
+                  withRatio = "boundaries.in.eddy_viscosity_ratio=5", noWall = "boundaries.left.type=symmetry",
+                  sa = "turbulence.model=sa";
+
+TEST(TurbulenceCase, RefusesWhatCannotBe) {
+  struct Wrong {
+    std::vector<std::string> overrides;
+    std::vector<std::string> words;
+  };
+  const Wrong decks[] = {
+      {{atInlet, withLength, noWall},
+       {"turbulence.model", "'sst' goes by the distance from walls", "in, out, left, right"}},
+      {{sa, noWall}, {"'sa' goes by the distance", "'wall_distance: infinite'"}},
+      {{"turbulence.model=wang", noWall}, {"'wang' goes by the distance"}},
+      {{atInlet, withLength, withRatio},
+       {"boundaries.in", "'turbulence_length' and 'eddy_viscosity_ratio', found both"}},
+      {{}, {"boundaries.in", "needs a 'turbulence_intensity' and one of"}},
+      {{atInlet}, {"boundaries.in", "one of 'turbulence_length' and 'eddy_viscosity_ratio'"}},
+      {{withRatio}, {"boundaries.in", "needs a 'turbulence_intensity'"}},
+      {{sa, withLength}, {"boundaries.in", "a 'turbulence_length' needs a 'turbulence_intensity'"}},
+      {{atInlet, withLength, "boundaries.in.velocity=0 m/s"},
+       {"turbulence_intensity", "expected an inlet with a velocity"}},
+      {{"turbulence={model: k_omega}", atInlet, withLength}, {"turbulence", "'k_omega' needs the key 'energy'"}},
+      {{"turbulence={model: none}", atInlet},
+       {"boundaries.in.turbulence_intensity", "the flow has no turbulence model"}},
+      {{"turbulence={model: none}", withLength}, {"boundaries.in.turbulence_length", "no turbulence model"}},
+      {{"turbulence={model: none}", withRatio}, {"boundaries.in.eddy_viscosity_ratio", "no turbulence model"}},
+      {{"turbulence={model: none, schmidt: 0.7}"}, {"turbulence.schmidt"}},
+      {{"turbulence={model: none, wall_distance: infinite}"}, {"turbulence.wall_distance"}},
+      {{"turbulence.model=les"}, {"turbulence.model", "les", "k_epsilon"}},
+      {{"turbulence.energy=0 m^2/s^2"}, {"turbulence.energy"}},
+      {{"turbulence.energy=-1 m^2/s^2"}, {"turbulence.energy"}},
+      {{"turbulence.eddy_viscosity_ratio=0"}, {"turbulence.eddy_viscosity_ratio"}},
+      {{"turbulence.largest_eddy_viscosity_ratio=0"}, {"turbulence.largest_eddy_viscosity_ratio"}},
+      {{"turbulence.prandtl=0"}, {"turbulence.prandtl"}},
+      {{"boundaries.in.turbulence_intensity=0", withLength}, {"boundaries.in.turbulence_intensity"}},
+      {{atInlet, "boundaries.in.turbulence_length=0 mm"}, {"boundaries.in.turbulence_length"}},
+      {{atInlet, "boundaries.in.eddy_viscosity_ratio=-2"}, {"boundaries.in.eddy_viscosity_ratio"}},
+      {{"boundaries.left.turbulence_intensity=0.1"}, {"boundaries.left.turbulence_intensity"}},
+      {{sa, "turbulence.wall_distance=infinite", "output.wall_distance=true"}, {"output.wall_distance", "infinite"}},
+  };
+  for (const Wrong& deck : decks) {
+    std::string said = "deck";
+    for (const std::string& override : deck.overrides) said += " " + override;
+    SCOPED_TRACE(said);
+    const std::string message = test::messageOf<InputError>([&] { (void)readFlowCase(channelDeck(deck.overrides)); });
+    for (const std::string& word : deck.words) EXPECT_THAT(message, HasSubstr(word));
+  }
+  const std::string swirls = test::messageOf<InputError>([&] {
+    (void)readFlowCase(test::flameDeck({"turbulence={model: wray_agarwal}", "boundaries.fuel.swirl_velocity=1 m/s"}));
+  });
+  EXPECT_THAT(swirls, AllOf(HasSubstr("turbulence.model"), HasSubstr("swirls")));
+  const std::string particles = test::messageOf<InputError>([&] {
+    (void)readFlowCase(test::flameDeck({"turbulence={model: wray_agarwal}", "stochastic.particles=40"}));
+  });
+  EXPECT_THAT(particles, AllOf(HasSubstr("turbulence.model"), HasSubstr("ensembles in the cells")));
+}
+
+TEST(TurbulenceCase, TellsOfUnlikelyInlets) {
+  EXPECT_TRUE(readFlowCase(channelDeck({atInlet, withLength})).notes.empty());
+  EXPECT_THAT(
+      readFlowCase(channelDeck({"boundaries.in.turbulence_intensity=2", "boundaries.in.turbulence_length=9 mm"})).notes,
+      ElementsAre("boundaries.in.turbulence_length: 0.009 m, more than the mesh is long",
+                  "boundaries.in.turbulence_intensity: more than one, 2"));
+}
+
+TEST(TurbulenceCase, NeedsNoWallsWhereTheirDistanceDoesNotCount) {
+  EXPECT_FALSE(readFlowCase(channelDeck({sa})).turbulence.ignoresWalls);
+  EXPECT_TRUE(readFlowCase(channelDeck({sa, noWall, "turbulence.wall_distance=infinite"})).turbulence.ignoresWalls);
+  for (const char* model : {"wray_agarwal", "k_omega", "k_omega1988", "k_epsilon"})
+    EXPECT_NO_THROW(
+        (void)readFlowCase(channelDeck({atInlet, withLength, noWall, std::string("turbulence.model=") + model})));
+  EXPECT_EQ(readFlowCase(channelDeck({sa})).turbulence.mostRatio, 1e5);
+}
+
+}  // namespace
+}  // namespace lampblack::app

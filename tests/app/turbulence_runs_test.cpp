@@ -1,0 +1,164 @@
+// Runs with each model of turbulence: they go on from a checkpoint and onto other pieces of the mesh as if nothing had
+// been, give the same on any number of ranks, and where there are no eddies the flow without a model.
+#include <optional>
+
+#include "tests/app/flow_results.hpp"
+#include "tests/app/flow_runs.hpp"
+#include "tests/core/mpi_support.hpp"
+#include "tests/shared_scratch.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+// Warm gas between a cold wall and the middle of a channel, seven steps.
+Deck turbulentDeck(const std::string& turbulence, const std::string& atInlet, double speed,
+                   std::vector<std::string> more = {}) {
+  more.emplace_back("checkpoint.steps=3");
+  return test::flowDeck("perfect_gas_1.yaml",
+                        fmt::format(R"(
+turbulence: {{{}}}
+mesh: {{geometry: planar, x: [{{to: 200 mm, cells: 6}}], y: [{{to: 20 mm, cells: 8, ratio: 10}}]}}
+boundaries:
+  in: {{type: inlet, side: x-min, velocity: {} m/s, temperature: 400 K, composition: "GAS: 1"{}}}
+  out: {{type: outlet, side: x-max, temperature: 300 K, composition: "GAS: 1"}}
+  wall: {{type: wall, side: y-min, temperature: 300 K}}
+  middle: {{type: symmetry, side: y-max}}
+initial: {{layer: none, composition: "GAS: 1", temperature: 300 K, formula: {{velocity_x: "{}*(y/0.02)^0.2"}}}}
+time: {{end: {} ms, first_step: {} ms, maximum_step: {} ms}}
+output: {{boundaries: [wall]}}
+)",
+                                    turbulence, speed, atInlet, speed, 5.0 / speed, 1.0 / speed, 1.0 / speed),
+                        more);
+}
+
+struct TurbulentRun {
+  Deck deck;
+  std::filesystem::path folder;
+  std::optional<std::filesystem::path> restart = {};
+  bool isMoved = false;  // onto other pieces, before the first step
+  MPI_Comm comm = MPI_COMM_WORLD;
+};
+
+test::Ran resultsOf(const TurbulentRun& of) {
+  if (of.comm != MPI_COMM_NULL) {
+    FlowLoop loop(of.comm, readFlowCase(of.deck));
+    if (of.restart) loop.load(newestCheckpoint(of.comm, *of.restart));
+    if (of.isMoved) {
+      const Mesh& mesh = loop.mesh();
+      std::vector<double> costs(test::at(mesh.owned), 1.0);
+      for (std::size_t c = 0; c < costs.size(); ++c)
+        if (mesh.centre[c][0] > 0.1) costs[c] = 3.0;
+      const std::vector<std::int64_t> before = mesh.naturalCell;
+      loop.repartition(costs);
+      if (mesh.ranks == 2) {
+        EXPECT_NE(loop.mesh().naturalCell, before);
+      }
+    }
+    loop.run(RunFolder::prepare(of.folder, false, of.comm), {"test", "none", of.deck.resolved(), "now"});
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  return test::readBack(of.folder / "results.h5");
+}
+
+class TurbulenceRuns : public testing::TestWithParam<std::string> {};
+
+TEST_P(TurbulenceRuns, GoOnAndMoveAndDoNotDependOnRanks) {
+  const test::SharedScratchFolder scratch;
+  const Deck deck = turbulentDeck("model: " + GetParam() + ", eddy_viscosity_ratio: 20, energy: 0.5 m^2/s^2",
+                                  ", turbulence_intensity: 0.05, turbulence_length: 2 mm", 20.0);
+  const auto whole = scratch.path() / "whole";
+  const test::Ran all = resultsOf({deck, whole});
+  for (const TurbulenceModel::Variable& variable : turbulenceModel(GetParam())->variables()) {
+    const auto& values = all.fields.at("000005/" + variable.name);
+    EXPECT_LT(*std::ranges::min_element(values), 0.9 * *std::ranges::max_element(values));
+  }
+  expectSameBits(resultsOf({deck, scratch.path() / "rest", whole}), all);
+  expectSameFields(resultsOf({deck, scratch.path() / "moved", whole, true}), all, 1e-7);
+  if (test::worldSize() == 1) return;
+  MPI_Comm one = MPI_COMM_NULL;
+  MPI_Comm_split(MPI_COMM_WORLD, test::worldRank() == 0 ? 0 : MPI_UNDEFINED, 0, &one);
+  expectSameFields(resultsOf({deck, scratch.path() / "one", {}, false, one}), all, 1e-7);
+  if (one != MPI_COMM_NULL) MPI_Comm_free(&one);
+}
+
+// Nothing but round-off: nu_t is 1e-30 of the viscosity.
+class RunsWithoutEddies : public testing::TestWithParam<std::string> {};
+
+TEST_P(RunsWithoutEddies, AreLaminarFlows) {
+  const test::SharedScratchFolder scratch;
+  const test::Ran laminar = resultsOf({turbulentDeck("model: none", "", 1.0), scratch.path() / "laminar"});
+  const test::Ran without =
+      resultsOf({turbulentDeck("model: " + GetParam() + ", eddy_viscosity_ratio: 1e-30, energy: 1e-35 m^2/s^2",
+                               ", turbulence_intensity: 1e-17, eddy_viscosity_ratio: 1e-30", 1.0),
+                 scratch.path() / "without"});
+  for (const auto& [name, values] : laminar.fields) {
+    const std::vector<double>& others = without.fields.at(name);
+    const auto [low, high] = std::ranges::minmax(values);
+    for (std::size_t i = 0; i < values.size(); ++i) ASSERT_NEAR(others[i], values[i], 1e-11 * (high - low)) << name;
+  }
+}
+
+std::vector<std::string> eachModel() {
+  std::vector<std::string> names;
+  for (const TurbulenceRow& row : turbulenceModels()) names.emplace_back(row.name);
+  return names;
+}
+
+std::string nameOf(const testing::TestParamInfo<std::string>& parameter) {
+  return parameter.param;
+}
+
+INSTANTIATE_TEST_SUITE_P(One, TurbulenceRuns, testing::Values("k_epsilon"), nameOf);
+INSTANTIATE_TEST_SUITE_P(Long, TurbulenceRuns, testing::ValuesIn(eachModel()), nameOf);
+INSTANTIATE_TEST_SUITE_P(Long, RunsWithoutEddies, testing::ValuesIn(eachModel()), nameOf);
+
+const std::string sstAtStart = "model: sst, eddy_viscosity_ratio: 20, energy: 0.5 m^2/s^2";
+const std::string sstAtInlet = ", turbulence_intensity: 0.05, turbulence_length: 2 mm";
+
+// Of another model the checkpoint is refused by both names, though its variables have the same names; as the start of
+// a flow its results serve.
+TEST(TurbulenceStarts, FromARunOfAnotherModel) {
+  const test::SharedScratchFolder scratch;
+  const auto earlier = scratch.path() / "earlier";
+  const Deck sst = turbulentDeck(sstAtStart, sstAtInlet, 20.0, {"output.species=[all]"});
+  const test::Ran before = resultsOf({sst, earlier});
+  const std::string refused = test::messageOf<InputError>([&] {
+    test::runFlow(turbulentDeck("model: k_omega, energy: 0.3 m^2/s^2", sstAtInlet, 20.0), scratch.path() / "on",
+                  earlier);
+  });
+  EXPECT_THAT(refused, HasSubstr("of another turbulence model (its own: sst; of the deck: k_omega)"));
+  EXPECT_TRUE(test::sameOnAllRanks(refused));
+  const auto startOf = [&](const std::string& model) {
+    return resultsOf({turbulentDeck("energy: 0.3 m^2/s^2, model: " + model, sstAtInlet, 20.0,
+                                    {"initial={layer: none, flow: {results: " + earlier.string() + "}}"}),
+                      scratch.path() / model});
+  };
+  const test::Ran same = startOf("k_omega"), otherwise = startOf("k_epsilon");
+  for (const char* field : {"/turbulent_kinetic_energy", "/omega_root", "/eddy_viscosity", "/temperature"}) {
+    const std::vector<double>&was = before.fields.at("000005" + std::string(field)),
+          &is = same.fields.at("000000" + std::string(field));
+    for (std::size_t c = 0; c < was.size(); ++c) EXPECT_NEAR(is[c], was[c], 1e-9 * std::abs(was[c])) << field << c;
+  }
+  // Epsilon is not there, and k alone is no start.
+  for (const double k : otherwise.fields.at("000000/turbulent_kinetic_energy")) EXPECT_NEAR(k, 0.3, 1e-12);
+}
+
+// The message has the place and the variables.
+TEST(TurbulenceStarts, EndWhereEddiesAreTooViscous) {
+  const test::SharedScratchFolder scratch;
+  const std::string message = test::messageOf<NumericsError>([&] {
+    test::runFlow(turbulentDeck(sstAtStart + ", largest_eddy_viscosity_ratio: 19", sstAtInlet, 20.0),
+                  scratch.path() / "out");
+  });
+  EXPECT_THAT(message, AllOf(HasSubstr("in the cell at ("), HasSubstr("the eddy viscosity is "),
+                             HasSubstr(" more than 19 (turbulence.largest_eddy_viscosity_ratio), "
+                                       "turbulent_kinetic_energy 0.5"),
+                             HasSubstr("omega_root 0.0")));
+  EXPECT_TRUE(test::sameOnAllRanks(message));
+}
+
+}  // namespace
+}  // namespace lampblack::app
