@@ -67,12 +67,12 @@ void addTurbulenceKeys(DeckSchema& schema) {
   }
   const std::vector<std::string> models(names.begin() + 1, names.end());
   schema
-      .add(choiceKey(
-               "turbulence.model", names,
-               fmt::format("Model of Reynolds-averaged turbulence. none: laminar, or all eddies resolved; {}. "
-                           "All but k_epsilon resolve the layers beside walls: y+ of the first cells (history.csv) "
-                           "about one or less; that one has wall functions: y+ from 30 to 300.",
-                           fmt::join(described, "; ")))
+      .add(choiceKey("turbulence.model", names,
+                     fmt::format(
+                         "Model of Reynolds-averaged turbulence. none: laminar, or all eddies resolved; {}. "
+                         "All but k_epsilon and realizable_k_epsilon resolve the layers beside walls: y+ of the first "
+                         "cells (history.csv) about one or less; those have wall functions: y+ from 30 to 300.",
+                         fmt::join(described, "; ")))
                .byDefault("none"))
       .add(numberKey("turbulence.prandtl", "Turbulent Prandtl number: eddies mix heat by their viscosity over it.")
                .byDefault("0.9")

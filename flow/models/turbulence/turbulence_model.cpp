@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 #include "flow/models/turbulence/k_epsilon.hpp"
 #include "flow/models/turbulence/k_omega.hpp"
+#include "flow/models/turbulence/realizable_k_epsilon.hpp"
 #include "flow/models/turbulence/shear_stress_transport.hpp"
 #include "flow/models/turbulence/spalart_allmaras.hpp"
 #include "flow/models/turbulence/wang.hpp"
@@ -30,6 +31,8 @@ const std::array rows{
     TurbulenceRow{"k_omega", "k-omega of 2006 (Wilcox 2008)", make<KOmega<2006>>},
     TurbulenceRow{"k_omega1988", "k-omega of 1988 (Wilcox 1988)", make<KOmega<1988>>},
     TurbulenceRow{"k_epsilon", "k-epsilon of Launder and Spalding 1974, with wall functions", make<KEpsilon>},
+    TurbulenceRow{"realizable_k_epsilon", "k-epsilon of Shih and others 1995, with wall functions",
+                  make<RealizableKEpsilon>},
 };
 
 }  // namespace

@@ -25,6 +25,7 @@ struct TurbulentCell {
   double vorticity = 0.0;        // 1/s, sqrt(2 W_ij W_ij)
   double dilatation = 0.0;       // 1/s, div u
   double stretching = 0.0;       // 1/s^3, |W_ij W_jk S_ki|, S without half of the dilatation
+  double strainShape = 0.0;      // S_ij S_jk S_ki/(S_ij S_ij)^(3/2) of the strain without dilatation
   double distance = 0.0;         // m, from the nearest wall
   double viscosity = 0.0;        // m^2/s, kinematic, molecular
   double strainLaplacian = 0.0;  // 1/(s m^2)

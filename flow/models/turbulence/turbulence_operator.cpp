@@ -131,7 +131,13 @@ void TurbulenceOperator::findShear() {
     const double squared = 2.0 * strains - 2.0 / 3.0 * cell.dilatation * cell.dilatation;
     cell.strain = std::sqrt(std::max(squared, 0.0));
     cell.vorticity = std::sqrt(2.0 * turns);
-    for (std::size_t i = 0; i < 3; ++i) S[i][i] -= 0.5 * cell.dilatation;
+    for (std::size_t i = 0; i < 3; ++i) S[i][i] -= cell.dilatation / 3.0;
+    double cubes = 0.0;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j)
+        for (std::size_t k = 0; k < 3; ++k) cubes += S[i][j] * S[j][k] * S[k][i];
+    cell.strainShape = squared > 0.0 ? cubes / std::pow(0.5 * squared, 1.5) : 0.0;
+    for (std::size_t i = 0; i < 3; ++i) S[i][i] -= cell.dilatation / 6.0;
     double stretching = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
