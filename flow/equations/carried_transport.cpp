@@ -267,6 +267,13 @@ void CarriedTransport::diffuse(const State& state, const Gas& gas, double dt, st
   for (int face = m.interiorFaces; face < m.faces; ++face)
     for (int s = 0; s < n; ++s) flux[face * n + s] += conductance[face * n + s] * perMass[m.low[face] * n + s];
   addFaceFluxes(m, flux, n, dt, content);
+  // Where a sink takes more than there is, the balance is a difference of what is far larger than what is left: there
+  // the sink has taken what the solution leaves over.
+  for (std::size_t i = 0; i < sinks.size(); ++i) {
+    const std::size_t c = i / state.scalars.size();
+    if (sinks[i] * dt > gas.newMass[c])
+      content[i] = gas.newMass[c] * (state.carried[i] / state.density[c] + perMass[i]);
+  }
   addCrossed(flux);
 }
 

@@ -19,6 +19,7 @@ namespace {
 struct Toy : Operator {
   std::map<std::string, ScalarBoundary> given;
   double diffusivity = 0.0, source = 0.0;  // m^2/s; per kg of gas and s
+  double held = 0.0, sink = 0.0;           // in every other cell: a value, and how fast it is held, 1/s
 
   [[nodiscard]] ScalarBlock block(const FlowContext& context) const {
     CarriedScalar scalar{.name = "toy", .unit = "1/m^3", .description = "nothing"};
@@ -33,6 +34,10 @@ struct Toy : Operator {
     for (std::size_t c = 0; c < state.density.size(); ++c) state.carriedDiffusivity[c * all + first] = diffusivity;
     for (std::size_t c = 0; c < state.balance.enthalpy.size(); ++c)
       state.balance.carried[c * all + first] += state.density[c] * source;
+    for (std::size_t c = 0; c < state.balance.enthalpy.size(); c += 2) {
+      state.balance.carried[c * all + first] += state.density[c] * sink * held;
+      state.balance.carriedSink[c * all + first] += sink;
+    }
   }
 };
 
@@ -104,6 +109,34 @@ struct PlugFlow {
     return c;
   }
 };
+
+// As fast as variables of turbulence are taken beside walls: the cell has what it is held at, and the others what
+// diffusion brings, whose number does not depend on how fast that is.
+TEST(ScalarBlocks, ASinkMayBeAsFastAsItLikes) {
+  double others = 0.0;
+  for (const double sink : {1e7, 1e13, 1e24}) {
+    Channel channel(1e-3, 5, 3e-3, 15);
+    Toy toy;
+    toy.diffusivity = 1e-5;
+    toy.held = 3.0;
+    toy.sink = sink;
+    State state = channel.stateOf({toy.block(channel.box.context)});
+    TransportOperator transport(channel.box.context, state);
+    march(state, transport, toy, 1e-3, 4);
+    double mean = 0.0;
+    for (int c = 0; c < channel.box.mesh.owned; ++c) {
+      const double value = state.carried[at(c)] / state.density[at(c)];
+      if (c % 2 == 0) {
+        EXPECT_NEAR(value, 3.0, 1e-3) << sink;
+      } else {
+        mean += value;
+      }
+    }
+    mean = sumOverRanks(mean);
+    if (others == 0.0) others = mean;
+    EXPECT_NEAR(mean / others, 1.0, 1e-3) << sink;
+  }
+}
 
 TEST(ScalarBlocks, AToyIsHeldAtInletAndWallsOfAChannel) {
   const double h = 1e-3, length = 3.0 * h, D = 1e-4;

@@ -1,5 +1,5 @@
-"""What scripts/mesh_to_gmsh writes of a run's box, and what scripts/compare_flows says of two runs and scripts/compare_santoro of
-one, on results written here."""
+"""What scripts/mesh_to_gmsh writes of a run's box, and what scripts/compare_flows says of two runs, scripts/compare_santoro,
+compare_turbulent_step and compare_round_jet of one, on results written here."""
 
 import json
 import pathlib
@@ -127,7 +127,62 @@ def check_santoro(folder):
     assert code == 2 and "a box of cells" in err, err
 
 
+def check_turbulent_step(folder):
+    """A stream that grows in proportion to the height, friction that does so along the floor, and a pressure of its own."""
+    height, end, speed, zero = 0.0127, 1.397, 40.0, 6.2
+    solid = {"x": [0, end], "y": [0, height]}
+    x = np.concatenate([np.linspace(0, end, 201), end + height * np.linspace(0, 50, 151)[1:]])
+    run = write_run(folder / "step", x, height * np.linspace(0, 9, 46), lambda x, y: 300 + 0 * x, {"mesh": {"solids": {"step": solid}}})
+    with h5py.File(run / "results.h5", "r+") as file:
+        centres, step = file["mesh/cellCentre"][()], file["steps/000003"]
+        along = (centres[:, 0] - end) / height
+        step["velocity"] = np.stack([speed * (centres[:, 1] / height - 1) / 8, 0 * along, 0 * along], axis=1)
+        step["density"], step["pressure"] = np.full(len(along), 1.2), 7.0 + 3.0 * np.minimum(along, 20)
+        for wall, places in (("floor", np.linspace(-10, 49.9, 600)), ("step", np.linspace(-20, -0.1, 200))):
+            at, first = file.create_group(f"walls/{wall}"), np.zeros(len(places))
+            shear = 0.5 * (places - zero) if wall == "floor" else first + 2.5
+            # An output before the last, which does not count.
+            for name, values in (("step", first + 3), ("x", end + height * places), ("y", first + (height if wall == "step" else 0)),
+                                 ("friction_x", shear)):
+                at[name] = np.concatenate([first if name == "step" else values + 1, values])
+    code, told, err = called("compare_turbulent_step", run, "--json", "--picture", folder / "step.png")
+    assert code == 0 and (folder / "step.png").stat().st_size > 1000, err
+    found = json.loads(told)
+    top = speed * (1 - 0.1 / 8)  # of the highest cell
+    assert abs(found["speed"] / top - 1) < 1e-9 and abs(found["thickness"] / (0.99 * 7.9) - 1) < 1e-9, found
+    half = 0.5 * 1.2 * top**2
+    assert abs(found["cf_before"] * half / 2.5 - 1) < 1e-9, found
+    assert len(found["turns"]) == 1 and abs(found["turns"][0] - zero) < 1e-6, found
+    assert abs(found["cp_least"] * half - 3 * (1 / 6 - 20)) < 1e-6, found
+    (row,) = [row for row in found["cf"] if abs(row["at"] - 9.2) < 0.05]
+    assert abs(row["cf"] * half - 0.5 * (row["at"] - zero)) < 1e-6 and abs(row["cfl3d"] - 0.00079) < 2e-5, row
+    assert abs(row["measured"] - 0.00118) < 1e-5, row
+    code, _, err = called("compare_turbulent_step", folder / "nowhere")
+    assert code == 2 and "nowhere" in err, err
+
+
+def check_round_jet(folder):
+    """A jet that spreads by 0.1 from 4 diameters behind the orifice, whose axis decays by 5."""
+    diameter, speed = 0.02, 30.0
+    more = {"mesh": {"geometry": "axisymmetric"}, "turbulence": {"model": "sst"},
+            "boundaries": {"jet": {"velocity": speed, "to": diameter / 2}}}
+    run = write_run(folder / "jet", np.linspace(0, 0.3, 301), np.linspace(0, 1.2, 121), lambda r, z: 300 + 0 * r, more)
+    with h5py.File(run / "results.h5", "r+") as file:
+        r, z = file["mesh/cellCentre"][:, 0], file["mesh/cellCentre"][:, 1]
+        far = np.maximum(z - 4 * diameter, diameter)
+        file["steps/000003/velocity"] = np.stack([0 * r, 5 * speed * diameter / far * np.exp2(-((r / (0.1 * far)) ** 2)), 0 * r], axis=1)
+    code, told, err = called("compare_round_jet", run, "--json", "--picture", folder / "jet.png")
+    assert code == 0 and (folder / "jet.png").stat().st_size > 1000, err
+    (found,) = json.loads(told)
+    assert abs(found["decay"] - 5) < 0.01 and abs(found["origin"] - 4) < 0.05 and abs(found["spread"] - 0.1) < 5e-4, found
+    assert found["model"] == "sst" and found["cells"] == 36000, found
+    code, _, err = called("compare_round_jet", run, "--from", 70, "--to", 90)
+    assert code == 2 and "no jet of three cells" in err, err
+
+
 with tempfile.TemporaryDirectory() as scratch:
+    check_turbulent_step(pathlib.Path(scratch))
+    check_round_jet(pathlib.Path(scratch))
     check_santoro(pathlib.Path(scratch))
     check_mesh(pathlib.Path(scratch))
     check_comparison(pathlib.Path(scratch))

@@ -46,7 +46,9 @@ struct ShearStressTransport {
     // P over the eddy viscosity, in which k does not stand; the limit counts there in the model of 2003 alone.
     double perViscosity = S * S;
     if (is2003) perViscosity = std::min(perViscosity, mostProduction * betaStar * s.omega * inverseTime);
-    perViscosity -= 2.0 / 3.0 * cell.dilatation * inverseTime;
+    // What gas that expands takes is in proportion to omega, also where the eddy viscosity is limited: -2/3 div u over
+    // the limited time would take omega below zero.
+    perViscosity -= 2.0 / 3.0 * cell.dilatation * s.omega;
     const double crossDiffusion = 2.0 * (1.0 - F1) * sigmaOmega2 * s.cross;
     turbulence::addOmega(s, blend(beta1, beta2), gamma * perViscosity + crossDiffusion, rates);
     return rates;
