@@ -35,6 +35,7 @@ EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options
       nothing_(known_.size() * classes),
       diffusivity_(options_.diffusion ? static_cast<std::size_t>(context.mesh.cells) * nodes : 0),
       isFound_(static_cast<std::size_t>(context.mesh.cells)),
+      contents_(static_cast<std::size_t>(context.mesh.owned)),
       facesInOrder_(context.mesh.faceOfCell),
       comingThrough_(2 * static_cast<std::size_t>(context.mesh.interiorFaces), Chain{-1, -1}) {
   for (std::size_t node = 0; node < nodes; ++node) {
@@ -87,19 +88,12 @@ const double* EnsembleTransport::diffusivityOf(const Gas& gas, int cell) {
 }
 
 // Collective. Of the classes, with their gradients.
-void EnsembleTransport::findDensities(const Gas& gas, double part, const std::vector<Rows>& populations,
-                                      const std::vector<Rows>& arrived) {
+void EnsembleTransport::findDensities(const Gas& gas, double part) {
   const Mesh& m = context_.mesh;
-  std::ranges::fill(density_, 0.0);
   for (int cell = 0; cell < m.owned; ++cell) {
     double* of = &density_[static_cast<std::size_t>(cell) * classes];
-    const auto add = [&](const double* row) {
-      of[classOf(massAt(row) / options_.type.density())] += row[packedNumberAt];
-    };
-    options_.rows.forEach(options_.rows.of(populations[cell]), add);
-    options_.rows.forEach(arrived[cell], add);
     const double perMass = m.volume[cell] / massOf(gas, cell, part);
-    for (int k = 0; k < classes; ++k) of[k] *= perMass;
+    for (int k = 0; k < classes; ++k) of[k] = contents_[cell].numbers[k] * perMass;
   }
   context_.halo.update(density_, classes);
   for (int face = m.interiorFaces; face < m.faces; ++face) {
@@ -218,7 +212,9 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
           const std::size_t length = options_.rows.lengthOf(row);
           Rows& to = arrived[cell];
           to.insert(to.end(), row, row + length);
-          to[to.size() - length + packedNumberAt] = row[packedNumberAt] / m.volume[cell];
+          const double number = row[packedNumberAt] / m.volume[cell];
+          to[to.size() - length + packedNumberAt] = number;
+          contents_[cell].add(classOf(massAt(row) / options_.type.density()), number, 1);
         }
         chain = {-1, -1};
       }
@@ -228,17 +224,12 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
 }
 
 // Collective. So many that what would leave a cell in one by the values in it is no more than mostLeaving of it.
-int EnsembleTransport::findParts(const Gas& gas, double dt, const std::vector<Rows>& populations,
-                                 const std::vector<Rows>& arrived) {
+int EnsembleTransport::findParts(const Gas& gas, double dt) {
   const Mesh& m = context_.mesh;
   double most = 0.0;
   for (int cell = 0; cell < m.owned; ++cell) {
-    double lightest = std::numeric_limits<double>::infinity();
-    const auto look = [&](const double* row) { lightest = std::min(lightest, massAt(row)); };
-    options_.rows.forEach(options_.rows.of(populations[cell]), look);
-    options_.rows.forEach(arrived[cell], look);
-    if (!std::isfinite(lightest)) continue;
-    const double volume = lightest / options_.type.density();
+    if (contents_[cell].count == 0) continue;
+    const double volume = contents_[cell].lightest / options_.type.density();
     const Between at = between(volume, smallest, nodes);
     double out = 0.0;
     for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
@@ -271,23 +262,28 @@ void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, H
     parts_ = 0;
   }
   std::ranges::fill(isFound_, 0);  // the ensembles between the halves have changed the gas
-  const int parts = findParts(gas, 0.5 * dt, populations, arrived);
+  order_.clear();
+  for (int cell = 0; cell < m.owned; ++cell) takeStock(cell, options_.rows.of(populations[cell]), arrived[cell]);
+  const int parts = findParts(gas, 0.5 * dt);
   parts_ += parts;
   std::vector<Side> sides;
   for (int part = 0; part < parts; ++part) {
     const double begun = 0.5 * ((isFirst ? 0.0 : 1.0) + static_cast<double>(part) / parts);
-    findDensities(gas, begun, populations, arrived);
+    findDensities(gas, begun);
     for (int cell = 0; cell < m.owned; ++cell) {
-      if (options_.rows.isEmpty(populations[cell]) && arrived[cell].empty()) continue;
+      if (contents_[cell].count == 0) continue;
       findSides(gas, cell, 0.5 * dt / parts, massOf(gas, cell, begun), sides);
       RandomStream random(options_.seed, static_cast<std::uint64_t>(m.naturalCell[cell]),
                           movesStream + static_cast<std::uint32_t>((isFirst ? 0 : mostParts) + part));
-      random.seek(step);
-      double point = random.uniform();
-      drawLeaving(cell, sides, point, options_.rows.head, populations[cell]);
-      drawLeaving(cell, sides, point, 0, arrived[cell]);
+      random.seek(2 * step);
+      drawLeaving(cell, sides, random, populations[cell], arrived[cell]);
     }
     send(arrived);
+  }
+  for (int cell = 0; cell < m.owned; ++cell) {
+    if (!contents_[cell].hasLost) continue;
+    removeGone(populations[cell], options_.rows.head);
+    removeGone(arrived[cell], 0);
   }
 }
 

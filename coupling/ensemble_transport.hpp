@@ -14,9 +14,12 @@
 // of slopes would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face.
 // Like sizes: volumes within a factor of eight.
 //
-// Which particles go is drawn evenly over their order (nextEvenPoint), by one random number of the cell and part of the
-// step: results do not depend on ranks. A numerical particle that stands for more than twice the mean goes in pieces,
-// so that the number does not leap. docs/theory/ensembles_in_cells.md.
+// Who goes is drawn by two random numbers of the cell and part of the step: results do not depend on ranks. Particles
+// of a cell are put in order of size once in a half of a step; in each part the teeth of a comb, as far from one
+// another as no probability of that size is above, hit those that are looked at, and evenly spread points
+// (nextEvenPoint) tell whether one of them goes, and where: a part costs what leaves in it, not what is there. A
+// numerical particle that stands for more than twice the mean goes in pieces, so that the number does not leap.
+// docs/theory/ensembles_in_cells.md.
 #pragma once
 
 #include <array>
@@ -25,6 +28,7 @@
 #include <vector>
 
 #include "core/modules.hpp"
+#include "core/random.hpp"
 #include "flow/discretisation/gradient.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
@@ -82,11 +86,14 @@ class EnsembleTransport {
   static constexpr std::size_t nodes = 37;
   struct Side;
   struct Leaving;
+  struct Content;
+  struct Draw;
+  struct Hit;
 
   [[nodiscard]] static int classOf(double volume);
   const double* diffusivityOf(const Gas& gas, int cell);
-  void findDensities(const Gas& gas, double part, const std::vector<Rows>& populations,
-                     const std::vector<Rows>& arrived);
+  void takeStock(int cell, std::span<const double> population, std::span<const double> arrived);
+  void findDensities(const Gas& gas, double part);
   void findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides);
   [[nodiscard]] double outflow(const Gas& gas, int face, int cell) const;
   // Whether particles diffuse through a face.
@@ -94,10 +101,13 @@ class EnsembleTransport {
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
   int sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const;
   void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const;
-  void drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head, Rows& rows);
+  void drawLeaving(int cell, const std::vector<Side>& sides, RandomStream& random, Rows& population, Rows& arrived);
+  void drawPieces(Draw& draw, double* row);
+  void drawHits(Draw& draw, double* row, std::span<const Hit> hits);
+  void leave(Draw& draw, double* row, std::span<const double> pieces, double of);
+  void removeGone(Rows& rows, std::size_t head) const;
   void send(std::vector<Rows>& arrived);
-  [[nodiscard]] int findParts(const Gas& gas, double dt, const std::vector<Rows>& populations,
-                              const std::vector<Rows>& arrived);
+  [[nodiscard]] int findParts(const Gas& gas, double dt);
 
   const FlowContext& context_;
   Options options_;
@@ -112,6 +122,10 @@ class EnsembleTransport {
     int ofClass;
   };
   std::array<Node, nodes> nodes_{};
+  std::vector<Content> contents_;      // of the owned cells, in this half of the step
+  std::vector<std::uint32_t> order_;   // of all of them: places of particles by size (Content)
+  std::vector<std::uint32_t> nodeOf_;  // of a cell's particles
+  std::vector<Hit> hits_;
   std::vector<Leaving> leaving_;
   std::vector<int> facesInOrder_;  // of each owned cell, as Mesh::faceOfCell, by their permanent numbers
   struct Chain {

@@ -1,7 +1,8 @@
-// Which particles leave a cell, and through which of its faces.
+// Which particles a cell has, which of them leave it, and through which of its faces.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "coupling/ensemble_transport_sides.hpp"
 #include "particles/collisions/sphere.hpp"
@@ -10,20 +11,59 @@
 namespace lampblack::coupling {
 namespace {
 
-// Beyond how many mean weights a numerical particle goes in pieces, and in how many at most.
-constexpr double meanWeights = 2.0, mostPieces = 1000.0;
-
-// What a numerical particle that goes as a whole may stand for.
-double largestWhole(const ParticleRows& layout, std::span<const double> rows) {
-  double number = 0.0, count = 0.0;
-  layout.forEach(rows, [&](const double* row) {
-    number += row[packedNumberAt];
-    count += 1.0;
-  });
-  return meanWeights * number / count;
+// In how many pieces a numerical particle goes where no more than `whole` goes as one.
+double piecesIn(double number, double whole) {
+  constexpr double most = 1000.0;
+  return std::clamp(std::ceil(number / whole), 1.0, most);
 }
 
 }  // namespace
+
+// Puts the particles of a cell in order of size.
+void EnsembleTransport::takeStock(int cell, std::span<const double> population, std::span<const double> arrived) {
+  constexpr std::uint32_t singles = nodes;
+  Content& content = contents_[cell];
+  content = {};
+  content.order = order_.size();
+  content.before = arrived.size();
+  content.lightest = std::numeric_limits<double>::infinity();
+  const std::array<std::span<const double>, 2> both{population, arrived};
+  nodeOf_.clear();
+  for (const std::span<const double> rows : both)
+    options_.rows.forEach(rows, [&](const double* row) {
+      const double mass = massAt(row), number = row[packedNumberAt], volume = mass / options_.type.density();
+      content.lightest = std::min(content.lightest, mass);
+      content.add(classOf(volume), number, 1);
+      const int node = exponentOf(volume) - smallest;
+      nodeOf_.push_back(node >= 0 && node < static_cast<int>(nodes) ? static_cast<std::uint32_t>(node) : singles);
+    });
+  // Pieces of a particle are places one after the other.
+  const double whole = content.whole();
+  const auto piecesOf = [&](const double* row, std::uint32_t node) {
+    return node == singles ? 1U : static_cast<std::uint32_t>(piecesIn(row[packedNumberAt], whole));
+  };
+  std::size_t k = 0;
+  for (const std::span<const double> rows : both)
+    options_.rows.forEach(rows, [&](const double* row) {
+      const std::uint32_t node = nodeOf_[k++];
+      content.upTo[node] += piecesOf(row, node);
+    });
+  std::array<std::uint32_t, nodes + 1> next{};
+  for (std::size_t node = 1; node < next.size(); ++node) next[node] = content.upTo[node] += content.upTo[node - 1];
+  for (std::size_t node = next.size() - 1; node > 0; --node) next[node] = next[node - 1];
+  next[0] = 0;
+  order_.resize(content.order + content.upTo.back());
+  k = 0;
+  for (std::size_t of = 0; of < both.size(); ++of) {
+    const std::span<const double> rows = both[of];
+    options_.rows.forEach(rows, [&](const double* row) {
+      const std::uint32_t node = nodeOf_[k++];
+      const std::size_t at = static_cast<std::size_t>(row - rows.data()) + (of == 0 ? options_.rows.head : 0);
+      for (std::uint32_t pieces = piecesOf(row, node); pieces > 0; --pieces)
+        order_[content.order + next[node]++] = Content::placeOf(at, of == 1);
+    });
+  }
+}
 
 // Of a particle: the sums of its probabilities to leave through the sides up to each of them. Returns its class of
 // size.
@@ -72,67 +112,145 @@ void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<d
   }
 }
 
-void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, double& point, std::size_t head,
-                                    Rows& rows) {
-  const Mesh& m = context_.mesh;
-  if (sides.empty() || rows.size() <= head) return;
-  std::array<double, Mesh::mostSides> upTo{};
-  std::array<bool, classes> isLimited{};
+// The drawing of a cell in a part of a step.
+struct EnsembleTransport::Draw {
+  int cell;
+  const std::vector<Side>& sides;
+  Content& content;
+  std::array<bool, classes> isLimited;
+  std::array<double, nodes> bounds;  // boundChances()
+  double whole;                      // 1/m3, that a particle may stand for that goes as one
+  double point;                      // nextEvenPoint()
+};
+
+void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, RandomStream& random, Rows& population,
+                                    Rows& arrived) {
+  if (sides.empty()) return;
+  Content& content = contents_[cell];
+  Draw draw{cell, sides, content, {}, {}, content.whole(), random.uniform()};
   for (const Side& side : sides)
-    for (std::size_t k = 0; k < isLimited.size(); ++k) isLimited[k] = isLimited[k] || side.isLimited[k];
-  const double whole = largestWhole(options_.rows, std::span(rows).subspan(head));
-  std::array<double, nodes> bounds;
-  boundChances(sides, bounds);
+    for (std::size_t k = 0; k < draw.isLimited.size(); ++k) draw.isLimited[k] = draw.isLimited[k] || side.isLimited[k];
+  for (std::size_t k = 0; k < draw.isLimited.size(); ++k)
+    if (draw.isLimited[k]) limited_ += content.counts[k];
+  boundChances(sides, draw.bounds);
+  const std::size_t end = arrived.size();  // before any leaves
+  const auto rowAt = [&](std::uint32_t place) { return &((place & 1U) != 0 ? arrived : population)[place >> 1U]; };
+  // Teeth at one another's distance of one along the line of the bounds of all pieces, one after the other.
+  hits_.clear();
+  double tooth = random.uniform();
+  std::size_t first = content.order;
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const std::size_t last = content.order + content.upTo[node], count = last - first;
+    const double most = std::min(draw.bounds[node], 1.0), length = most * static_cast<double>(count);
+    for (; tooth < length; tooth += 1.0) {
+      const std::size_t entry = first + std::min(count - 1, static_cast<std::size_t>(tooth / most));
+      if (order_[entry] == Content::nowhere) continue;
+      __builtin_prefetch(rowAt(order_[entry]));  // rows lie anywhere: they are waited for together
+      hits_.push_back({entry, most});
+    }
+    tooth -= length;
+    first = last;
+  }
+  for (std::size_t hit = 0, next = 0; hit < hits_.size(); hit = next) {
+    const std::uint32_t place = order_[hits_[hit].entry];
+    while (next < hits_.size() && order_[hits_[next].entry] == place) ++next;
+    drawHits(draw, rowAt(place), std::span(hits_).subspan(hit, next - hit));
+  }
+  for (; first < content.order + content.upTo[nodes]; ++first)
+    if (double* row = rowAt(order_[first]); row[packedNumberAt] > 0.0) drawPieces(draw, row);
+  for (std::size_t i = content.before; i < end; i += options_.rows.lengthOf(&arrived[i]))
+    if (arrived[i + packedNumberAt] > 0.0) drawPieces(draw, &arrived[i]);
+}
+
+// Of a particle of which these pieces are looked at, each with the probability of its hit.
+void EnsembleTransport::drawHits(Draw& draw, double* row, std::span<const Hit> hits) {
+  std::array<double, Mesh::mostSides> upTo{}, leaving{};
+  const int k = sumChances(row, draw.sides, upTo);
+  const double sum = upTo[draw.sides.size() - 1];
+  if (sum > 1.0 && !draw.isLimited[k]) ++limited_;
+  std::uint32_t gone = 0;
+  for (const Hit& hit : hits) {
+    nextEvenPoint(draw.point);
+    const double drawn = draw.point * (sum > 1.0 ? sum : hit.most);
+    if (drawn >= sum) continue;
+    std::size_t s = 0;
+    while (s + 1 < draw.sides.size() && drawn >= upTo[s]) ++s;
+    leaving[s] += 1.0;
+    ++gone;
+  }
+  if (gone == 0) return;
+  // Its pieces that are there, of which the last ones go.
+  const std::size_t begin = draw.content.order, end = begin + draw.content.upTo[nodes - 1];
+  std::size_t first = hits.front().entry, last = first + 1;
+  const std::uint32_t place = order_[first];
+  while (first > begin && order_[first - 1] == place) --first;
+  while (last < end && order_[last] == place) ++last;
+  leave(draw, row, leaving, static_cast<double>(last - first));
+  std::fill_n(order_.begin() + static_cast<std::ptrdiff_t>(last - gone), gone, Content::nowhere);
+}
+
+// One of any size that may stand for any number. Most stay, which their bound tells.
+void EnsembleTransport::drawPieces(Draw& draw, double* row) {
+  const double pieces = piecesIn(row[packedNumberAt], draw.whole);
+  const int node = exponentOf(massAt(row) / options_.type.density()) - smallest;
+  if (pieces == 1.0 && node >= 0 && node < static_cast<int>(nodes)) {
+    double drawn = draw.point;
+    nextEvenPoint(drawn);
+    if (drawn >= draw.bounds[static_cast<std::size_t>(node)]) {
+      draw.point = drawn;
+      return;
+    }
+  }
+  std::array<double, Mesh::mostSides> upTo{};
+  const int k = sumChances(row, draw.sides, upTo);
+  const double sum = upTo[draw.sides.size() - 1];
+  if (sum > 1.0 && !draw.isLimited[k]) ++limited_;
+  std::array<double, Mesh::mostSides> leaving{};
+  bool isLeaving = false;
+  for (int piece = 0; piece < static_cast<int>(pieces); ++piece) {
+    nextEvenPoint(draw.point);
+    const double drawn = sum > 1.0 ? draw.point * sum : draw.point;
+    if (drawn >= sum) continue;
+    std::size_t s = 0;
+    while (s + 1 < draw.sides.size() && drawn >= upTo[s]) ++s;
+    leaving[s] += 1.0;
+    isLeaving = true;
+  }
+  if (isLeaving) leave(draw, row, leaving, pieces);
+}
+
+// So many of its pieces go through each side.
+void EnsembleTransport::leave(Draw& draw, double* row, std::span<const double> pieces, double of) {
+  const std::size_t length = options_.rows.lengthOf(row);
+  const double number = row[packedNumberAt], inCell = number * context_.mesh.volume[draw.cell];
+  double stay = of;
+  for (std::size_t s = 0; s < draw.sides.size(); ++s) {
+    if (!(pieces[s] > 0.0)) continue;
+    stay -= pieces[s];
+    const Side& side = draw.sides[s];
+    Rows& to = side.beyond < 0 ? gone_ : leavingRows_;
+    if (side.beyond >= 0)
+      leaving_.push_back({side.face, side.beyond, to.size()});
+    else
+      goneThrough_.push_back(side.face);
+    to.insert(to.end(), row, row + length);
+    to[to.size() - length + packedNumberAt] = inCell * pieces[s] / of;
+  }
+  row[packedNumberAt] = stay > 0.0 ? number * stay / of : 0.0;
+  draw.content.hasLost = draw.content.hasLost || !(stay > 0.0);
+  draw.content.add(classOf(massAt(row) / options_.type.density()), row[packedNumberAt] - number, stay > 0.0 ? 0 : -1);
+}
+
+// Takes out the rows that have the number zero.
+void EnsembleTransport::removeGone(Rows& rows, std::size_t head) const {
+  if (rows.size() <= head) return;
   std::size_t kept = head, next = head;
   for (std::size_t i = head; i < rows.size(); i = next) {
     const std::size_t length = options_.rows.lengthOf(&rows[i]);
     next = i + length;
-    // Most stay, which their bound tells.
-    const double volume = (rows[i] + rows[i + 1]) / options_.type.density();
-    if (const int node = exponentOf(volume) - smallest;
-        node >= 0 && node < static_cast<int>(nodes) && !(rows[i + packedNumberAt] > whole)) {
-      double drawn = point;
-      nextEvenPoint(drawn);
-      if (drawn >= bounds[static_cast<std::size_t>(node)]) {
-        point = drawn;
-        if (isLimited[classOf(volume)]) ++limited_;
-        if (kept != i) std::copy_n(&rows[i], length, &rows[kept]);
-        kept += length;
-        continue;
-      }
-    }
-    const int k = sumChances(&rows[i], sides, upTo);
-    const double sum = upTo[sides.size() - 1];
-    if (sum > 1.0 || isLimited[k]) ++limited_;
-    const double number = rows[i + packedNumberAt];
-    const double pieces = std::clamp(std::ceil(number / whole), 1.0, mostPieces);
-    std::array<double, Mesh::mostSides> leave{};
-    double stay = pieces;
-    for (int piece = 0; piece < static_cast<int>(pieces); ++piece) {
-      nextEvenPoint(point);
-      const double drawn = sum > 1.0 ? point * sum : point;
-      if (drawn >= sum) continue;
-      std::size_t s = 0;
-      while (s + 1 < sides.size() && drawn >= upTo[s]) ++s;
-      leave[s] += 1.0;
-      stay -= 1.0;
-    }
-    const double inCell = number * m.volume[cell];
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-      if (!(leave[s] > 0.0)) continue;
-      Rows& to = sides[s].beyond < 0 ? gone_ : leavingRows_;
-      if (sides[s].beyond >= 0)
-        leaving_.push_back({sides[s].face, sides[s].beyond, to.size()});
-      else
-        goneThrough_.push_back(sides[s].face);
-      to.insert(to.end(), &rows[i], &rows[i] + length);
-      to[to.size() - length + packedNumberAt] = inCell * leave[s] / pieces;
-    }
-    if (stay > 0.0) {
-      if (kept != i) std::copy_n(&rows[i], length, &rows[kept]);
-      if (stay < pieces) rows[kept + packedNumberAt] = number * stay / pieces;
-      kept += length;
-    }
+    if (!(rows[i + packedNumberAt] > 0.0)) continue;
+    if (kept != i) std::copy_n(&rows[i], length, &rows[kept]);
+    kept += length;
   }
   rows.resize(kept);
 }

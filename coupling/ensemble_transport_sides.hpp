@@ -59,6 +59,42 @@ struct EnsembleTransport::Side {
   }
 };
 
+// What a cell has in a half of a step. Its particles as they are at the begin stand in `order_` as places in their rows
+// (placeOf), of one node of size after the other, a particle once for each piece in which it goes; then those of sizes
+// beyond the nodes, which are drawn singly. Those that come later stand behind the others in `arrived`. A piece that
+// has left is `nowhere`, and who has left altogether has the number zero in its row until the end of the half.
+struct EnsembleTransport::Content {
+  std::size_t order = 0;                        // its begin in order_
+  std::array<std::uint32_t, nodes + 1> upTo{};  // in it: of each node, then of the single ones
+  std::size_t before = 0;                       // values of `arrived` at the begin
+  double number = 0.0;                          // 1/m3, of all
+  std::int64_t count = 0;
+  std::array<double, classes> numbers{};  // 1/m3, of each class
+  std::array<int, classes> counts{};
+  double lightest = 0.0;  // kg, at the begin
+  bool hasLost = false;   // whether a row has the number zero
+
+  static constexpr std::uint32_t nowhere = ~0U;
+  [[nodiscard]] static std::uint32_t placeOf(std::size_t at, bool hasArrived) {
+    return static_cast<std::uint32_t>(2 * at + (hasArrived ? 1 : 0));
+  }
+  // 1/m3, that a numerical particle may stand for that goes as one.
+  [[nodiscard]] double whole() const { return 2.0 * number / static_cast<double>(count); }
+  // `change`: of how many numerical ones there are.
+  void add(int ofClass, double more, int change) {
+    number += more;
+    count += change;
+    numbers[ofClass] = std::max(0.0, numbers[ofClass] + more);
+    counts[ofClass] += change;
+    if (counts[ofClass] == 0) numbers[ofClass] = 0.0;
+  }
+};
+
+struct EnsembleTransport::Hit {
+  std::size_t entry;  // in order_
+  double most;        // no probability to leave is above it
+};
+
 struct EnsembleTransport::Leaving {
   int face = 0;         // local
   int cell = 0;         // local, where it comes to
