@@ -75,7 +75,8 @@ SootTransfer StochasticProcess<Method>::growEach(const SootMedium& medium, const
     p = columns_.particle(k++);
     return p.carbon > 0;
   });
-  gathered_ = false;  // some may be gone, and the order in the store another one
+  // Where none is gone the columns are those of the particles still, unless the store has another order now.
+  gathered_ = drawsPairs && !(all.lost > 0);
   now = sums(medium);
   return all;
 }

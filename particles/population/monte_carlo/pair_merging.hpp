@@ -38,12 +38,18 @@ class PairMerging {
   // Positive floats are in the order of their bits, which rise by 2^23 for a factor of two: nearly a logarithm.
   static std::uint32_t logarithm(const Row& row) { return std::bit_cast<std::uint32_t>(row.volume); }
   void sort(const PairPopulation<Type>& population);
+  // The loss up to which `count` pairs lose least, and how many of that very loss are among them.
+  struct Loss {
+    std::uint32_t most;
+    std::size_t equal;
+  };
+  [[nodiscard]] Loss lossOf(std::size_t count) const;
   void mergeOnce(std::size_t excess, double most, PairPopulation<Type>& population);
 
   // Room that is kept.
   std::vector<std::uint32_t> order_, other_;
   struct Pair {
-    float loss;
+    std::uint32_t loss;   // the bits of a float from zero on, which are in its order
     std::uint32_t lower;  // place in the order
   };
   std::vector<Pair> pairs_;
@@ -66,6 +72,23 @@ void PairMerging<Type>::sort(const PairPopulation<Type>& population) {
   }
 }
 
+// Eight bits after the other from the highest on: in each the one up to which the count is reached.
+template <ParticleType Type>
+auto PairMerging<Type>::lossOf(std::size_t count) const -> Loss {
+  std::uint32_t found = 0, known = 0;
+  for (unsigned shift = 32; shift > 0;) {
+    shift -= 8;
+    std::array<std::uint32_t, 256> counts{};
+    for (const Pair& pair : pairs_)
+      counts[(pair.loss >> shift) & 255U] += static_cast<std::uint32_t>((pair.loss & known) == found);
+    std::uint32_t digit = 0;
+    while (digit < 255 && count > counts[digit]) count -= counts[digit++];
+    found |= digit << shift;
+    known |= 255U << shift;
+  }
+  return {found, count};
+}
+
 template <ParticleType Type>
 void PairMerging<Type>::mergeOnce(std::size_t excess, double most, PairPopulation<Type>& population) {
   const std::size_t n = order_.size();
@@ -77,24 +100,22 @@ void PairMerging<Type>::mergeOnce(std::size_t excess, double most, PairPopulatio
       if (weight > most) continue;
       const double share = a.weight / weight;
       const auto ratio = static_cast<float>(logarithm(b) - logarithm(a));
-      pairs_.push_back({static_cast<float>(share * (1 - share)) * ratio * ratio, static_cast<std::uint32_t>(k)});
+      const float loss = static_cast<float>(share * (1 - share)) * ratio * ratio;
+      pairs_.push_back({std::bit_cast<std::uint32_t>(loss), static_cast<std::uint32_t>(k)});
     }
     most *= 2;
   }
-  const auto inOrder = [](const Pair& x, const Pair& y) {
-    return x.loss < y.loss || (x.loss == y.loss && x.lower < y.lower);
-  };
   const std::size_t wanted = std::min(excess, pairs_.size());
-  const auto last = pairs_.begin() + static_cast<std::ptrdiff_t>(wanted);
-  if (wanted < pairs_.size()) std::nth_element(pairs_.begin(), last, pairs_.end(), inOrder);
-  std::sort(pairs_.begin(), last, [](const Pair& x, const Pair& y) { return x.lower < y.lower; });
+  auto [least, equal] = lossOf(wanted);
   gone_.assign(n, 0);
   std::size_t next = 0;
   const Type& type = population.type();
-  for (auto pair = pairs_.begin(); pair != last; ++pair) {
-    if (pair->lower < next) continue;
-    next = pair->lower + 2;
-    const std::uint32_t i = order_[pair->lower], j = order_[pair->lower + 1];
+  for (const Pair& pair : pairs_) {
+    if (pair.loss > least || (pair.loss == least && equal == 0)) continue;
+    if (pair.loss == least) --equal;
+    if (pair.lower < next) continue;
+    next = pair.lower + 2;
+    const std::uint32_t i = order_[pair.lower], j = order_[pair.lower + 1];
     const double wi = population.weight(i), wj = population.weight(j);
     if (population.volume(i) == population.volume(j) && !moreThanVolume<Type>())  // to the last bit
       population.setWeight(i, wi + wj);
