@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "particles/collisions/collision_physics.hpp"
+
 namespace lampblack::particles {
 namespace {
 
@@ -87,10 +89,11 @@ void SectionShapes::update(std::span<const double> aggregates, std::span<const d
 
 void SectionShapes::updateGas(double twiceMeanFreePath) {
   for (std::size_t i = 0; i < size(); ++i) {
-    const double knudsen = twiceMeanFreePath / mobility[i], exponential = 0.4 * std::exp(-1.1 / knudsen);
-    slip[i] = 1 + knudsen * (1.257 + exponential);
+    const double knudsen = twiceMeanFreePath / mobility[i];
+    const double exponential = DaviesSlip::slow * std::exp(-DaviesSlip::fall / knudsen);
+    slip[i] = 1 + knudsen * (DaviesSlip::fast + exponential);
     slipOver[i] = slip[i] / collision[i];
-    const double byKnudsen = 1.257 + exponential * (1 + 1.1 / knudsen);
+    const double byKnudsen = DaviesSlip::fast + exponential * (1 + DaviesSlip::fall / knudsen);
     slipOverSlope[i] = -byKnudsen * knudsen * mobilitySlope_[i] / (mobility[i] * collision[i]) -
                        slipOver[i] * collisionSlope[i] / collision[i];
   }
