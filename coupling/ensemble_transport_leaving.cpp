@@ -14,7 +14,14 @@ namespace {
 // In how many pieces a numerical particle goes where no more than `whole` goes as one.
 double piecesIn(double number, double whole) {
   constexpr double most = 1000.0;
-  return std::clamp(std::ceil(number / whole), 1.0, most);
+  return number > whole ? std::min(std::ceil(number / whole), most) : 1.0;
+}
+
+// The side to which a point belongs below the last of the sums.
+std::size_t sideAt(double point, std::span<const double> upTo) {
+  std::size_t s = 0;
+  while (s + 1 < upTo.size() && point >= upTo[s]) ++s;
+  return s;
 }
 
 }  // namespace
@@ -173,9 +180,7 @@ void EnsembleTransport::drawHits(Draw& draw, double* row, std::span<const Hit> h
     nextEvenPoint(draw.point);
     const double drawn = draw.point * (sum > 1.0 ? sum : hit.most);
     if (drawn >= sum) continue;
-    std::size_t s = 0;
-    while (s + 1 < draw.sides.size() && drawn >= upTo[s]) ++s;
-    leaving[s] += 1.0;
+    leaving[sideAt(drawn, std::span(upTo).first(draw.sides.size()))] += 1.0;
     ++gone;
   }
   if (gone == 0) return;
@@ -211,9 +216,7 @@ void EnsembleTransport::drawPieces(Draw& draw, double* row) {
     nextEvenPoint(draw.point);
     const double drawn = sum > 1.0 ? draw.point * sum : draw.point;
     if (drawn >= sum) continue;
-    std::size_t s = 0;
-    while (s + 1 < draw.sides.size() && drawn >= upTo[s]) ++s;
-    leaving[s] += 1.0;
+    leaving[sideAt(drawn, std::span(upTo).first(draw.sides.size()))] += 1.0;
     isLeaving = true;
   }
   if (isLeaving) leave(draw, row, leaving, pieces);

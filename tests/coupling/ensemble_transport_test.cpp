@@ -145,6 +145,33 @@ TEST_P(MeanOfParticles, IsTheFiniteVolumeField) {
   EXPECT_LT(score.square, 1.6);
 }
 
+// In parts of a half, of which each begins with what the one before left: the field in as many steps.
+TEST(EnsembleTransport, InPartsIsTheFiniteVolumeFieldInAsManySteps) {
+  constexpr int repeats = 100, parts = 3;
+  constexpr double dt = 2e-3;
+  MeanOfRepeats numbers;
+  std::vector<double> expected;
+  for (int r = 0; r < repeats; ++r) {
+    Moving m(8, vortex);
+    m.fill(40, hill, 0.0);
+    if (expected.empty()) {
+      std::vector<double> field(at(m.box.mesh.cells));
+      for (int c = 0; c < m.box.mesh.owned; ++c) field[at(c)] = m.moment(c, 0.0);
+      expected = fieldAfter(m, field, dt / parts, 0.0, parts);
+    }
+    EnsembleTransport transport = m.transport(false, 4000 + static_cast<std::uint64_t>(r));
+    m.step(transport, dt, 0);
+    ASSERT_EQ(transport.parts(), 2 * parts);
+    std::vector<double> values;
+    for (int c = 0; c < m.box.mesh.owned; ++c) values.push_back(m.moment(c, 0.0));
+    numbers.add(values);
+  }
+  const auto score = numbers.against(expected);
+  report(fmt::format("in parts: largest |z| {:.2f} of 64 cells, mean square {:.2f}", score.largest, score.square));
+  EXPECT_LT(score.largest, 4.5);
+  EXPECT_LT(score.square, 1.6);
+}
+
 // Diffusion on triangles, where the steps between centres are oblique to the faces: numbers that rise evenly stay, away
 // from the walls.
 TEST(EnsembleTransport, DiffusesAcrossObliqueFacesAsAcrossOthers) {
@@ -194,6 +221,8 @@ TEST(EnsembleTransport, KeepsEveryMomentOfTheWhole) {
     for (const double order : {0.0, 1.0, 3.0, 6.0}) before[order] = m.total(order);
     for (int s = 0; s < 20; ++s) m.step(transport, 2e-4, static_cast<std::uint64_t>(s));
     for (const auto& [order, value] : before) EXPECT_NEAR(m.total(order) / value, 1.0, 1e-13) << order;
+    for (const auto& population : m.populations)  // who has left leaves nothing behind
+      for (const GivenParticle& p : packedParticles(population)) EXPECT_GT(p.number, 0.0);
   }
 }
 
