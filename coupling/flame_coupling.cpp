@@ -1,13 +1,12 @@
 #include "coupling/flame_coupling.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
-#include "particles/collisions/collision_physics.hpp"
-#include "particles/models/soot_model.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -31,7 +30,7 @@ std::vector<Volumes> volumesOf(const std::vector<FlameEnsemblePath>& paths) {
   for (const FlameEnsemblePath& path : paths) {
     Volumes v;
     v.z = path.path.z;
-    v.value = path.volumeFraction.mean;
+    if (!v.z.empty()) v.value = path.valuesOf("volume_fraction").mean;
     if (path.options.fromRight) {
       std::reverse(v.z.begin(), v.z.end());
       std::reverse(v.value.begin(), v.value.end());
@@ -42,18 +41,19 @@ std::vector<Volumes> volumesOf(const std::vector<FlameEnsemblePath>& paths) {
 }
 
 FlameCouplingStep describe(const std::vector<FlameEnsemblePath>& paths, const std::vector<Volumes>& volumes,
-                           const std::vector<Volumes>& before) {
+                           const std::vector<Volumes>& before, std::size_t elements) {
   FlameCouplingStep step;
+  step.leaving.assign(elements, 0.0);
   for (const FlameEnsemblePath& path : paths) {
-    for (std::size_t k = 0; k < path.path.z.size(); ++k) {
-      if (path.volumeFraction.mean[k] <= step.volumeFraction) continue;
-      step.volumeFraction = path.volumeFraction.mean[k];
-      step.noise = path.volumeFraction.error[k] / step.volumeFraction;
-    }
     if (path.path.z.empty()) continue;
+    const RepeatedValue& fraction = path.valuesOf("volume_fraction");
+    for (std::size_t k = 0; k < path.path.z.size(); ++k) {
+      if (fraction.mean[k] <= step.volumeFraction) continue;
+      step.volumeFraction = fraction.mean[k];
+      step.noise = fraction.error[k] / step.volumeFraction;
+    }
     const double out = std::abs(path.path.velocity.back());
-    step.carbonLeaving += out * path.carbon.mean.back();
-    step.hydrogenLeaving += out * path.hydrogen.mean.back();
+    for (std::size_t e = 0; e < elements; ++e) step.leaving[e] += out * path.content[e];
   }
   for (std::size_t p = 0; p < before.size(); ++p)
     for (std::size_t k = 0; k < volumes[p].z.size(); ++k) {
@@ -64,9 +64,11 @@ FlameCouplingStep describe(const std::vector<FlameEnsemblePath>& paths, const st
   return step;
 }
 
-double integral(const std::vector<double>& z, const std::vector<double>& f) {
+// Of the e-th of so many elements.
+double integral(const FlameExchange& x, std::size_t e, std::size_t elements) {
   double sum = 0;
-  for (std::size_t i = 0; i + 1 < z.size(); ++i) sum += 0.5 * (f[i] + f[i + 1]) * (z[i + 1] - z[i]);
+  for (std::size_t i = 0; i + 1 < x.z.size(); ++i)
+    sum += 0.5 * (x.elements[i * elements + e] + x.elements[(i + 1) * elements + e]) * (x.z[i + 1] - x.z[i]);
   return sum;
 }
 
@@ -84,10 +86,11 @@ double change(const FlameProfile& before, const FlameProfile& after, std::size_t
 
 }  // namespace
 
-FlameExchange::FlameExchange(std::vector<double> points, std::size_t n)
-    : z(std::move(points)), species(z.size() * n), carbon(z.size()), hydrogen(z.size()), absorption(z.size()) {}
+FlameExchange::FlameExchange(std::vector<double> points, std::size_t n, std::size_t held)
+    : z(std::move(points)), species(z.size() * n), elements(z.size() * held), absorption(z.size()) {}
 
-GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile, const FlameExchange& population,
+GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile,
+                      std::span<const ElementEnthalpy> enthalpies, const FlameExchange& population,
                       const FlameExchange& transfer, double w) {
   const std::size_t n = profile.layout.species;
   GivenExchange given;
@@ -99,19 +102,20 @@ GivenExchange relaxed(const GivenExchange& old, const FlameProfile& profile, con
       given.species.push_back(mix(before.species(k), population.species[i * n + k] - transfer.species[i * n + k]));
     given.absorption.push_back(mix(before.absorption(), population.absorption[i] - transfer.absorption[i]));
     const double T = profile.temperature(i);
-    const double toSoot = sootCarbonEnthalpy(T).first * (population.carbon[i] - transfer.carbon[i]) +
-                          sootHydrogenEnthalpy(T).first * (population.hydrogen[i] - transfer.hydrogen[i]);
-    given.enthalpy.push_back(mix(before.enthalpy(), -toSoot));
+    double toParticles = 0;
+    for (std::size_t e = 0, at = i * enthalpies.size(); e < enthalpies.size(); ++e, ++at)
+      toParticles += enthalpies[e](T).first * (population.elements[at] - transfer.elements[at]);
+    given.enthalpy.push_back(mix(before.enthalpy(), -toParticles));
   }
   return given;
 }
 
-FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soot, const FlameProfile& profile,
+FlameExchange exchangeOf(const Mechanism& mechanism, const StochasticPopulation& kind, const FlameProfile& profile,
                          const std::vector<FlameEnsemblePath>& paths) {
-  const auto species = indicesOfSootSpecies(mechanism, soot);
-  const std::size_t n = mechanism.numSpecies(), last = profile.points() - 1;
+  const auto& species = kind.species();
+  const std::size_t n = mechanism.numSpecies(), last = profile.points() - 1, elements = kind.elements().size();
   const auto weights = mechanism.molecularWeights();
-  FlameExchange e(profile.z, n);
+  FlameExchange e(profile.z, n, elements);
   for (const FlameEnsemblePath& path : paths) {
     const auto& points = path.path.path.points;
     const std::vector<double>& z = path.path.z;
@@ -125,30 +129,31 @@ FlameExchange exchangeOf(const Mechanism& mechanism, const SootModelOptions& soo
             e.z.begin());
         const double below = i == 0 ? 0 : e.z[i] - e.z[i - 1], above = i == last ? 0 : e.z[i + 1] - e.z[i];
         const double part = length / (below + above) / dt;
-        const EnsembleExchange& x = path.exchange[k];
+        const PathExchange& x = path.exchange[k];
         for (std::size_t s = 0; s < species.size(); ++s)
           e.species[i * n + species[s]] += part * x.gas[s] * weights[species[s]];
-        e.carbon[i] += part * x.carbon;
-        e.hydrogen[i] += part * x.hydrogen;
+        for (std::size_t held = 0; held < elements; ++held) e.elements[i * elements + held] += part * x.elements[held];
       }
     }
-    for (std::size_t i = 0; i <= last; ++i) {
+    if (z.empty()) continue;
+    const RepeatedValue& fraction = path.valuesOf("volume_fraction");
+    for (std::size_t i = 0; i <= last; ++i)
       for (std::size_t k = 0; k < z.size(); ++k)
-        if (z[k] == profile.z[i])
-          e.absorption[i] += sootAbsorption(profile.temperature(i), path.volumeFraction.mean[k]);
-    }
+        if (z[k] == profile.z[i]) e.absorption[i] += kind.absorption(profile.temperature(i), fraction.mean[k]);
   }
   return e;
 }
 
-FlameExchange exchangeOfTransfer(const Mechanism& mechanism, CarriedModel& transfer, const FlameProfile& profile,
-                                 const FlameSootGas& gas) {
+FlameExchange exchangeOfTransfer(const Mechanism& mechanism, CarriedModel& transfer,
+                                 std::span<const std::string> elements, const FlameProfile& profile,
+                                 const GasOfFlame& gas) {
   const std::size_t n = mechanism.numSpecies();
-  FlameExchange e(profile.z, n);
+  FlameExchange e(profile.z, n, elements.size());
   const auto& scalars = transfer.scalars();
   const auto& exchanged = transfer.exchanged();
   const auto weights = mechanism.molecularWeights();
-  const std::size_t carbon = mechanism.elementIndex("C"), hydrogen = mechanism.elementIndex("H");
+  std::vector<std::size_t> held;
+  for (const std::string& element : elements) held.push_back(mechanism.elementIndex(element));
   std::vector<double> concentrations(exchanged.size()), densities(scalars.size()), rates(scalars.size()),
       production(exchanged.size());
   for (std::size_t i = 0; i < profile.points(); ++i) {
@@ -160,10 +165,9 @@ FlameExchange exchangeOfTransfer(const Mechanism& mechanism, CarriedModel& trans
     transfer.sources({s, concentrations}, densities, rates, production);
     for (std::size_t k = 0; k < exchanged.size(); ++k)
       e.species[i * n + exchanged[k]] = production[k] * weights[exchanged[k]];
-    for (std::size_t k = 0; k < scalars.size(); ++k) {
-      e.carbon[i] += rates[k] * scalars[k].elements[carbon];
-      e.hydrogen[i] += rates[k] * scalars[k].elements[hydrogen];
-    }
+    for (std::size_t k = 0; k < scalars.size(); ++k)
+      for (std::size_t at = 0; at < held.size(); ++at)
+        e.elements[i * held.size() + at] += rates[k] * scalars[k].elements[held[at]];
     e.absorption[i] = transfer.absorption(s.temperature, densities);
   }
   return e;
@@ -174,40 +178,49 @@ FlameCoupling coupleFlame(MPI_Comm comm, const Mechanism& mechanism, double pres
                           const std::function<void(const FlameCouplingStep&)>& report) {
   FlameCoupling result;
   result.solution = std::move(start);
+  std::unique_ptr<StochasticPopulation> kind;
+  std::vector<ElementEnthalpy> enthalpies;
+  collectively(comm, [&] {
+    kind = options.ensemble.make(0);
+    auto known = elementEnthalpies(kind->elements());
+    if (!known)
+      throw InputError(fmt::format("particles of {}: their heat is not known, so that a flame cannot take and give it",
+                                   kind->material()));
+    enthalpies = std::move(*known);
+  });
+  const std::size_t n = mechanism.numSpecies(), elements = kind->elements().size(),
+                    watched = FlameLayout::firstSpecies + kind->species()[kind->watchedSpecies()];
   GivenExchange given;
   std::vector<Volumes> before;
-  double temperatureChange = 1, acetyleneChange = 1;
+  double temperatureChange = 1, speciesChange = 1;
   for (std::size_t k = 0;; ++k) {
     const double began = MPI_Wtime();
     const FlameProfile& profile = result.solution.profile;
-    FlameSootGas gas;
-    collectively(comm, [&] {
-      gas = flameSootGas(profile, mechanism, pressure, options.ensemble.soot.soot, waldmannThermophoresis());
-    });
+    GasOfFlame gas;
+    collectively(comm, [&] { gas = gasOfFlame(profile, mechanism, pressure, *kind); });
     result.paths = runFlameEnsemble(comm, gas, options.ensemble);
-    const FlameExchange population = exchangeOf(mechanism, options.ensemble.soot.soot, profile, result.paths);
+    const FlameExchange population = exchangeOf(mechanism, *kind, profile, result.paths);
     const std::vector<Volumes> volumes = volumesOf(result.paths);
-    FlameCouplingStep step = describe(result.paths, volumes, before);
+    FlameCouplingStep step = describe(result.paths, volumes, before, elements);
     before = volumes;
     step.points = profile.points();
     step.temperatureChange = temperatureChange;
-    step.acetyleneChange = acetyleneChange;
-    step.carbonTaken = integral(population.z, population.carbon);
-    step.hydrogenTaken = integral(population.z, population.hydrogen);
+    step.speciesChange = speciesChange;
+    for (std::size_t e = 0; e < elements; ++e) step.taken.push_back(integral(population, e, elements));
     // Two means that differ by their noise alone are sqrt(2) standard errors apart.
     const double noise = 2 * std::sqrt(2.0) * step.noise;
     result.converged = step.volumeFractionChange <= std::max(options.tolerance, noise) &&
-                       temperatureChange <= options.tolerance && acetyleneChange <= std::max(options.tolerance, noise);
+                       temperatureChange <= options.tolerance && speciesChange <= std::max(options.tolerance, noise);
     if (!result.converged && k < options.iterations) {
-      const FlameExchange own = transfer != nullptr ? exchangeOfTransfer(mechanism, *transfer, profile, gas)
-                                                    : FlameExchange(profile.z, mechanism.numSpecies());
-      given = relaxed(given, profile, population, own, options.relaxation);
+      const FlameExchange own = transfer != nullptr
+                                    ? exchangeOfTransfer(mechanism, *transfer, kind->elements(), profile, gas)
+                                    : FlameExchange(profile.z, n, elements);
+      given = relaxed(given, profile, enthalpies, population, own, options.relaxation);
       solver.setExchange(given);
       const FlameProfile old = profile;
       result.solution = solver.solve(old);
       temperatureChange = change(old, result.solution.profile, FlameLayout::temperature);
-      acetyleneChange = change(old, result.solution.profile,
-                               FlameLayout::firstSpecies + knownSpecies(mechanism, "C2H2", "ensembles need"));
+      speciesChange = change(old, result.solution.profile, watched);
     }
     step.seconds = MPI_Wtime() - began;
     result.steps.push_back(step);

@@ -1,5 +1,5 @@
-// Stochastic soot along the paths of a one-dimensional flame: repeats of each path, spread over the ranks, and their
-// means with what they differ by. The gas is given: the decoupled solution.
+// A stochastic population of any kind along the paths of a one-dimensional flame: repeats of each path, spread over the
+// ranks, and their means with what they differ by. The gas is given: the decoupled solution.
 #pragma once
 
 #include <mpi.h>
@@ -14,9 +14,9 @@
 namespace lampblack::coupling {
 
 struct FlameEnsembleOptions {
-  EnsembleOptions soot;     // `owner` is set for each repeat
+  MakePopulation make;
   std::size_t repeats = 8;  // of each path, at least 2
-  EnsemblePathOptions march;
+  PathMarch march;
   std::vector<FlamePathOptions> paths;
 };
 
@@ -26,7 +26,7 @@ struct FlameEnsemblePath : PathEnsemble {
 };
 
 // Collective. The same on all ranks, to the last bit whatever their number. NumericsError says which repeat failed.
-[[nodiscard]] std::vector<FlameEnsemblePath> runFlameEnsemble(MPI_Comm comm, const FlameSootGas& gas,
+[[nodiscard]] std::vector<FlameEnsemblePath> runFlameEnsemble(MPI_Comm comm, const GasOfFlame& gas,
                                                               const FlameEnsembleOptions& options);
 
 }  // namespace lampblack::coupling

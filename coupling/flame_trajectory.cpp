@@ -9,6 +9,7 @@
 #include "chemistry/transport/transport.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "particles/collisions/collision_physics.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -26,7 +27,7 @@ struct FlamePathPoint : GasSample {
   double z = 0, velocity = 0;
 };
 
-FlamePathPoint pointAt(const FlameSootGas& gas, std::size_t i) {
+FlamePathPoint pointAt(const GasOfFlame& gas, std::size_t i) {
   FlamePathPoint p;
   p.z = gas.z[i];
   p.velocity = gas.velocity[i] + gas.thermophoresis[i];
@@ -51,16 +52,10 @@ double travel(const FlamePathPoint& a, const FlamePathPoint& b) {
 
 }  // namespace
 
-FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
-                          const SootModelOptions& soot, double thermophoresis) {
-  for (const PahSpecies& pah : soot.pah) static_cast<void>(mechanism.speciesIndex(pah.name));
-  return flameGasOf(sootSpecies(soot), profile, mechanism, pressure, thermophoresis);
-}
-
-FlameSootGas flameGasOf(std::span<const std::string> names, const FlameProfile& profile, const Mechanism& mechanism,
-                        double pressure, double thermophoresis) {
+GasOfFlame flameGasOf(std::span<const std::string> names, const FlameProfile& profile, const Mechanism& mechanism,
+                      double pressure, double thermophoresis) {
   const std::size_t n = mechanism.numSpecies(), points = profile.points();
-  FlameSootGas gas;
+  GasOfFlame gas;
   gas.z = profile.z;
   std::vector<std::optional<std::size_t>> species;
   for (const std::string& name : names) species.push_back(findKnownSpecies(mechanism, name));
@@ -98,7 +93,14 @@ FlameSootGas flameGasOf(std::span<const std::string> names, const FlameProfile& 
   return gas;
 }
 
-FlamePath flamePath(const FlameSootGas& gas, const FlamePathOptions& options) {
+GasOfFlame gasOfFlame(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
+                      const StochasticPopulation& kind) {
+  std::vector<std::string> names;
+  for (const std::size_t k : kind.species()) names.push_back(mechanism.speciesName(k));
+  return flameGasOf(names, profile, mechanism, pressure, waldmannThermophoresis());
+}
+
+FlamePath flamePath(const GasOfFlame& gas, const FlamePathOptions& options) {
   const std::size_t gridPoints = gas.z.size();
   const double sign = options.fromRight ? -1 : 1;
   const auto at = [&](std::size_t k) { return options.fromRight ? gridPoints - 1 - k : k; };

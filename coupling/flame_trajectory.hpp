@@ -1,4 +1,4 @@
-// The path of soot particles through a one-dimensional flame, on the axis of its similarity solution: z, time, gas, and
+// The path of particles through a one-dimensional flame, on the axis of its similarity solution: z, time, gas, and
 // the divergence of the particles' velocity.
 //
 // Particles move with w = u + V_T, V_T the thermophoretic velocity. Their number N per volume obeys
@@ -19,26 +19,27 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
 #include "flow/flame/flame_profile.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
-#include "particles/gas/soot_gas.hpp"
+#include "particles/gas/gas_path.hpp"
+#include "particles/stochastic/stochastic_population.hpp"
 
 namespace lampblack::coupling {
 
-// The gas of a flame at its points as soot sees it.
-struct FlameSootGas {
+// The gas of a flame at its points as particles see it.
+struct GasOfFlame {
   std::vector<double> z;
   std::vector<CarrierGas> carrier;
-  std::vector<double> concentrations;                    // mol/m3, in the order of SootSpecies, point-major
+  std::vector<double> concentrations;                    // mol/m3, of the species that they see, point-major
   std::vector<double> velocity, thermophoresis, spread;  // u, V_T (m/s), V (1/s)
 };
 
-// `thermophoresis`: of V_T = -thermophoresis (mu/rho) grad T / T. Of SootSpecies, those that the mechanism lacks are
-// not there; InputError where it lacks a PAH.
-[[nodiscard]] FlameSootGas flameSootGas(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
-                                        const SootModelOptions& soot, double thermophoresis);
-// The same of other species, none of which the mechanism needs to have.
-[[nodiscard]] FlameSootGas flameGasOf(std::span<const std::string> names, const FlameProfile& profile,
-                                      const Mechanism& mechanism, double pressure, double thermophoresis);
+// `names`: of the species that the particles see; what the mechanism lacks is not there. `thermophoresis`: of
+// V_T = -thermophoresis (mu/rho) grad T / T.
+[[nodiscard]] GasOfFlame flameGasOf(std::span<const std::string> names, const FlameProfile& profile,
+                                    const Mechanism& mechanism, double pressure, double thermophoresis);
+
+// Of the species that particles of this kind see, with Waldmann's thermophoresis.
+[[nodiscard]] GasOfFlame gasOfFlame(const FlameProfile& profile, const Mechanism& mechanism, double pressure,
+                                    const StochasticPopulation& kind);
 
 struct FlamePathOptions {
   bool fromRight = false;       // from the right end towards smaller z
@@ -53,6 +54,6 @@ struct FlamePath {
 };
 
 // Empty where particles at the start do not move into the flame.
-[[nodiscard]] FlamePath flamePath(const FlameSootGas& gas, const FlamePathOptions& options);
+[[nodiscard]] FlamePath flamePath(const GasOfFlame& gas, const FlamePathOptions& options);
 
 }  // namespace lampblack::coupling

@@ -12,7 +12,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
 #include "coupling/reactor_particles.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/gas/gas_path.hpp"
 
 namespace lampblack::coupling {
 

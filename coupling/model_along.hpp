@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/gas/gas_path.hpp"
 #include "particles/models/particle_model.hpp"
 
 namespace lampblack::coupling {

@@ -2,12 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <type_traits>
 
-#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/repeats.hpp"
 #include "core/stop_request.hpp"
@@ -15,29 +14,32 @@
 namespace lampblack::coupling {
 namespace {
 
-// An exchange is nothing but doubles, which makes its mean and its message simple; counts are below 2^53.
-static_assert(std::is_trivially_copyable_v<EnsembleExchange> && sizeof(EnsembleExchange) % sizeof(double) == 0);
-constexpr std::size_t exchangeWidth = sizeof(EnsembleExchange) / sizeof(double);
-constexpr std::size_t counters = std::size(populationCounters);
-constexpr std::size_t values = 13;  // of a record, besides its distribution
+constexpr std::vector<double> PathExchange::*exchangeParts[] = {&PathExchange::gas, &PathExchange::elements,
+                                                                &PathExchange::processes};
 
-void pack(const EnsemblePathResult& result, std::size_t bins, double* out) {
-  for (const EnsemblePathRecord& r : result.records) {
-    const auto& t = r.totals;
-    const double n = t.number;
-    for (const double value :
-         {n, r.volumeFraction, t.meanDiameter(), r.geometricDeviation, n > 0 ? t.primaries / n : 0.0, t.carbon,
-          t.hydrogen, t.surface, t.mass(), n > 0 ? std::cbrt(6 / constants::pi * r.volumeFraction / n) : 0.0,
-          r.massSquared, r.massCubed, static_cast<double>(r.coagulations)})
-      *out++ = value;
-    for (std::size_t b = 0; b < bins; ++b) *out++ = r.distribution[b];
+// Where the numbers of a repeat stand: its records, what was exchanged between them, what was counted.
+struct PathNumbers {
+  std::size_t records, columns, bins, exchanged[3], elements, counts;
+
+  [[nodiscard]] std::size_t record() const { return columns + bins; }
+  [[nodiscard]] std::size_t exchange() const { return exchanged[0] + exchanged[1] + exchanged[2]; }
+  [[nodiscard]] std::size_t firstExchange() const { return records * record(); }
+  [[nodiscard]] std::size_t firstContent() const { return firstExchange() + (records - 1) * exchange(); }
+  [[nodiscard]] std::size_t firstCount() const { return firstContent() + elements; }
+  [[nodiscard]] std::size_t all() const { return firstCount() + counts; }
+};
+
+void packPath(const PathResult& result, std::span<double> numbers) {
+  auto out = numbers.begin();
+  const auto put = [&](const std::vector<double>& values) { out = std::ranges::copy(values, out).out; };
+  for (const PathRecord& r : result.records) {
+    put(r.values);
+    put(r.distribution);
   }
-  for (const EnsembleExchange& x : result.exchange) {
-    const auto* part = reinterpret_cast<const double*>(&x);
-    for (std::size_t k = 0; k < exchangeWidth; ++k) *out++ = part[k];
-  }
-  for (const PopulationCounter& counter : populationCounters)
-    *out++ = static_cast<double>(result.counters.*counter.value);
+  for (const PathExchange& x : result.exchange)
+    for (const auto part : exchangeParts) put(x.*part);
+  put(result.content);
+  for (const auto& [name, value] : result.counts) *out++ = value;
 }
 
 // Of `count` values that lie `stride` apart, in the order of the repeats.
@@ -51,58 +53,76 @@ void summarise(const double* first, std::size_t count, std::size_t stride, doubl
 
 }  // namespace
 
-PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const EnsembleOptions& options,
-                             std::size_t repeats, const EnsemblePathOptions& march, const std::string& what) {
-  collectively(comm, [&] {
-    if (repeats < 2) throw InputError("stochastic soot: at least 2 repeats are needed");
-  });
+const RepeatedValue& PathEnsemble::valuesOf(const std::string& name) const {
+  const auto found = std::ranges::find(columns, material + "_" + name, &Quantity::name);
+  return values.at(static_cast<std::size_t>(found - columns.begin()));
+}
+
+double PathEnsemble::count(const std::string& name) const {
+  const auto found = std::ranges::find(counts, name, [](const auto& count) { return count.first; });
+  return found == counts.end() ? 0.0 : found->second;
+}
+
+PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const MakePopulation& make,
+                             std::uint64_t firstOwner, std::size_t repeats, const PathMarch& march,
+                             const std::string& what) {
   PathEnsemble result;
+  PathNumbers at{};
+  collectively(comm, [&] {
+    if (repeats < 2) throw InputError("stochastic particles: at least 2 repeats are needed");
+    const auto population = make(firstOwner);
+    result.material = population->material();
+    result.columns = population->columns();
+    result.processes = population->processes();
+    result.counts = population->counts();
+    for (auto& count : result.counts) count.second = 0;
+    at = {march.recorded.empty() ? path.points.size() : march.recorded.size(),
+          result.columns.size(),
+          march.bins.count,
+          {population->species().size(), population->elements().size(), result.processes.size()},
+          population->elements().size(),
+          result.counts.size()};
+  });
   const double start = MPI_Wtime();
-  const std::size_t records = march.recorded.empty() ? path.points.size() : march.recorded.size();
-  const std::size_t bins = march.bins.count, row = values + bins;
-  const std::size_t width = records * row + (records - 1) * exchangeWidth + counters;
-  std::vector<double> all = gatherRepeats(comm, 0, repeats, width, [&](std::uint64_t r, std::span<double> record) {
+  std::vector<double> all = gatherRepeats(comm, 0, repeats, at.all(), [&](std::uint64_t r, std::span<double> numbers) {
     if (const int signal = stopRequest(); signal != 0)
       throw Stopped(signal, "stopped by " + signalName(signal) + " before the end of the path");
-    EnsembleOptions own = options;
-    own.owner = options.owner + r;
     try {
-      const auto soot = makeEnsemble(own);
-      pack(marchPath(*soot, path, march), bins, record.data());
+      packPath(marchPath(*make(firstOwner + r), path, march), numbers);
     } catch (const NumericsError& error) {
       throw NumericsError(fmt::format("{}, repeat {}: {}", what, r, error.what()));
     }
   });
-  shareRepeats(comm, all, repeats * width);
-  RepeatedValue* const named[values] = {
-      &result.number,      &result.volumeFraction, &result.meanDiameter, &result.geometricDeviation,
-      &result.primaries,   &result.carbon,         &result.hydrogen,     &result.surface,
-      &result.mass,        &result.volumeDiameter, &result.massSquared,  &result.massCubed,
-      &result.coagulations};
-  for (RepeatedValue* value : named) {
-    value->mean.resize(records);
-    value->error.resize(records);
+  shareRepeats(comm, all, repeats * at.all());
+  const auto meanOf = [&](std::size_t place, double& mean, double& error) {
+    summarise(&all[place], repeats, at.all(), mean, error);
+  };
+  result.values.assign(at.columns, {std::vector<double>(at.records), std::vector<double>(at.records)});
+  result.distribution = {std::vector<double>(at.records * at.bins), std::vector<double>(at.records * at.bins)};
+  for (std::size_t i = 0; i < at.records; ++i) {
+    for (std::size_t c = 0; c < at.columns; ++c)
+      meanOf(i * at.record() + c, result.values[c].mean[i], result.values[c].error[i]);
+    for (std::size_t b = 0; b < at.bins; ++b)
+      meanOf(i * at.record() + at.columns + b, result.distribution.mean[i * at.bins + b],
+             result.distribution.error[i * at.bins + b]);
   }
-  result.distribution.mean.resize(records * bins);
-  result.distribution.error.resize(records * bins);
-  for (std::size_t i = 0; i < records; ++i) {
-    for (std::size_t k = 0; k < values; ++k)
-      summarise(&all[i * row + k], repeats, width, named[k]->mean[i], named[k]->error[i]);
-    for (std::size_t b = 0; b < bins; ++b)
-      summarise(&all[i * row + values + b], repeats, width, result.distribution.mean[i * bins + b],
-                result.distribution.error[i * bins + b]);
+  std::size_t place = at.firstExchange();
+  for (std::size_t i = 0; i + 1 < at.records; ++i) {
+    PathExchange &mean = result.exchange.emplace_back(), &error = result.exchangeError.emplace_back();
+    for (std::size_t part = 0; part < std::size(exchangeParts); ++part) {
+      std::vector<double>&means = mean.*exchangeParts[part], &errors = error.*exchangeParts[part];
+      means.resize(at.exchanged[part]);
+      errors.resize(at.exchanged[part]);
+      for (std::size_t k = 0; k < at.exchanged[part]; ++k) meanOf(place++, means[k], errors[k]);
+    }
   }
-  result.exchange.resize(records - 1);
-  result.exchangeError.resize(records - 1);
-  for (std::size_t i = 0; i + 1 < records; ++i) {
-    auto* mean = reinterpret_cast<double*>(&result.exchange[i]);
-    auto* error = reinterpret_cast<double*>(&result.exchangeError[i]);
-    for (std::size_t k = 0; k < exchangeWidth; ++k)
-      summarise(&all[records * row + i * exchangeWidth + k], repeats, width, mean[k], error[k]);
+  result.content.resize(at.elements);
+  for (std::size_t e = 0; e < at.elements; ++e) {
+    double error = 0;
+    meanOf(at.firstContent() + e, result.content[e], error);
   }
-  for (std::size_t k = 0; k < counters; ++k)
-    for (std::size_t r = 0; r < repeats; ++r)
-      result.counters.*populationCounters[k].value += static_cast<std::uint64_t>(all[r * width + width - counters + k]);
+  for (std::size_t r = 0; r < repeats; ++r)
+    for (std::size_t k = 0; k < at.counts; ++k) result.counts[k].second += all[r * at.all() + at.firstCount() + k];
   result.seconds = MPI_Wtime() - start;
   return result;
 }

@@ -1,16 +1,17 @@
-// Stochastic soot along one path through a gas that is known: repeats, spread over the ranks, and their means with what
-// they differ by.
+// A stochastic population of any kind along one path through a gas that is known: repeats, spread over the ranks, and
+// their means with what they differ by.
 #pragma once
 
 #include <mpi.h>
 
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/modules.hpp"
-#include "particles/ensemble/ensemble.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "core/quantity.hpp"
+#include "particles/stochastic/population_path.hpp"
 
 namespace lampblack::coupling {
 
@@ -20,28 +21,25 @@ struct RepeatedValue {
 };
 
 struct PathEnsemble {
-  RepeatedValue number;  // 1/m3
-  RepeatedValue volumeFraction;
-  RepeatedValue meanDiameter;  // m, of mobility, by number
-  RepeatedValue geometricDeviation;
-  RepeatedValue primaries;               // of an aggregate
-  RepeatedValue carbon, hydrogen;        // kg/m3
-  RepeatedValue surface;                 // m2/m3
-  RepeatedValue mass;                    // kg/m3
-  RepeatedValue volumeDiameter;          // m, of the sphere of mean volume
-  RepeatedValue massSquared, massCubed;  // kg2/m3, kg3/m3
-  RepeatedValue coagulations;            // events so far, of a repeat
-  RepeatedValue distribution;            // dN/dlog10(d), 1/m3: bins at the first record, at the second, ...
-  std::vector<EnsembleExchange> exchange, exchangeError;  // means, one between two records, and their standard errors
-  PopulationCounters counters;                            // of all repeats
-  double seconds = 0;                                     // of all repeats
+  std::string material;
+  std::vector<Quantity> columns, processes;  // of the population
+  std::vector<RepeatedValue> values;         // of each column
+  RepeatedValue distribution;                // dN/dlog10(d), 1/m3: bins at the first record, at the second, ...
+  std::vector<PathExchange> exchange, exchangeError;  // means, one between two records, and their standard errors
+  std::vector<double> content;  // kg/m3 of each element of the particles, in the end, mean of the repeats
+  std::vector<std::pair<std::string, double>> counts;  // of all repeats
+  double seconds = 0;                                  // of all repeats
+
+  // Of a column by its name without the material, such as number_density, which has to be there.
+  [[nodiscard]] const RepeatedValue& valuesOf(const std::string& name) const;
+  [[nodiscard]] double count(const std::string& name) const;  // zero where nothing of this name is counted
 };
 
-// Collective. The same on all ranks, to the last bit whatever their number. `options.owner` is that of the first
-// repeat, the others have the next. InputError with less than 2 repeats; NumericsError, in the name of `what`, says
-// which failed.
-[[nodiscard]] PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const EnsembleOptions& options,
-                                           std::size_t repeats, const EnsemblePathOptions& march,
+// Collective. The same on all ranks, to the last bit whatever their number. `firstOwner` is that of the random numbers
+// of the first repeat, the others have the next. InputError with less than 2 repeats; NumericsError, in the name of
+// `what`, says which failed.
+[[nodiscard]] PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const MakePopulation& make,
+                                           std::uint64_t firstOwner, std::size_t repeats, const PathMarch& march,
                                            const std::string& what);
 
 }  // namespace lampblack::coupling

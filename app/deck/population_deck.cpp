@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/initial_distribution.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
+#include "io/request_limits.hpp"
 #include "particles/ensemble/soot_ensemble.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/trees/tree_ensemble.hpp"
@@ -17,9 +19,18 @@ namespace lampblack::app {
 namespace {
 
 using MechanismOfDeck = std::shared_ptr<const Mechanism>;
+enum class Beside { nothing, model };
 
 void refuseModel(const Deck& deck, const char* why) {
   if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none") throw deck.error("soot.model", why);
+}
+
+// Of one trajectory, as a rank has one at a time; `bytes` of a particle.
+std::size_t readTravellers(const Deck& deck, double bytes) {
+  const int particles = deck.integer<int>("trajectories.particles");
+  requireMemory(deck, "trajectories.particles", fmt::format("an ensemble of {} particles", particles),
+                bytes * particles);
+  return static_cast<std::size_t>(particles);
 }
 
 // Trees of primaries, section `particles`.
@@ -36,10 +47,24 @@ PopulationRequest ofTrees(const MechanismOfDeck& mechanism, const TreeOptions& o
   return request;
 }
 
-PopulationRequest readTreePopulation(const Deck& deck, const MechanismOfDeck& mechanism) {
-  if (deck.has("stochastic"))
+// What is said of soot in the section `stochastic`, which says of trees where they are.
+void refuseKeysOfSoot(const Deck& deck, std::initializer_list<const char*> more = {}) {
+  std::vector<const char*> keys{"method",        "particles", "shape",           "fractal_dimension", "active_sites",
+                                "keep_hydrogen", "growth",    "split_tolerance", "bundled_growth"};
+  keys.insert(keys.end(), more);
+  for (const char* key : keys)
+    if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))
+      throw deck.error(full, "this is of soot; what trees of primaries are like is said in the section 'particles'");
+}
+
+PopulationRequest readTreePopulation(const Deck& deck, const MechanismOfDeck& mechanism, Beside beside) {
+  if (beside == Beside::model)
+    refuseKeysOfSoot(deck, {"repeats", "seed", "bins", "smallest", "largest"});
+  else if (deck.has("stochastic"))
     throw deck.error("stochastic",
                      "particles of the section 'particles' take the place of ensembles; leave out one of the two");
+  if (beside != Beside::model)
+    refuseModel(deck, "trees of primaries take the place of a model: leave this out, or the section 'particles'");
   const TreeRequest trees = readTrees(deck, *mechanism);
   PopulationRequest request = ofTrees(mechanism, trees.options, trees.start);
   request.repeats = trees.repeats;
@@ -57,10 +82,7 @@ PopulationRequest readTreesInCells(const Deck& deck, const MechanismOfDeck& mech
                      "in a flow these need the section 'stochastic', which says how the cells hold them: 'stochastic: "
                      "{exchange: two_way}'");
   refuseModel(deck, "trees in the cells take the place of a model: leave this out, or 'particles'");
-  for (const char* key : {"method", "particles", "shape", "fractal_dimension", "active_sites", "keep_hydrogen",
-                          "growth", "split_tolerance", "bundled_growth"})
-    if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))
-      throw deck.error(full, "this is of soot; what trees of primaries are like is said in the section 'particles'");
+  refuseKeysOfSoot(deck);
   TreeOptions options = readTreeOptions(deck, *mechanism);
   if (deck.has("soot") && options.material.soot() == nullptr)
     throw deck.error("soot", "the trees of 'particles' are of another material: leave this out");
@@ -70,6 +92,16 @@ PopulationRequest readTreesInCells(const Deck& deck, const MechanismOfDeck& mech
     throw deck.error(sootAtStart, "what trees of primaries begin with is said in 'particles.initial'; leave this out");
   options.fullAt = deck.quantity("stochastic.minimum_number_density");
   return ofTrees(mechanism, options, start);
+}
+
+// As in the cells.
+PopulationRequest readTreesOnTrajectory(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed) {
+  TreeOptions options = readTreeOptions(deck, *mechanism);
+  options.seed = seed;
+  options.fullAt = deck.quantity("stochastic.minimum_number_density");
+  options.particles = readTravellers(deck, 1000);
+  options.splitTolerance = deck.number("trajectories.split_tolerance");
+  return ofTrees(mechanism, options, readTreeStart(deck, options));
 }
 
 // Soot as spheres or aggregates, section `stochastic`.
@@ -86,9 +118,10 @@ PopulationRequest ofSoot(const MechanismOfDeck& mechanism, const EnsembleOptions
   return request;
 }
 
-PopulationRequest readSootPopulation(const Deck& deck, const MechanismOfDeck& mechanism) {
+PopulationRequest readSootPopulation(const Deck& deck, const MechanismOfDeck& mechanism, Beside beside) {
   if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
-  refuseModel(deck, "an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
+  if (beside != Beside::model)
+    refuseModel(deck, "an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
   const EnsembleRequest ensembles = readEnsemble(deck, readSootModelOptions(deck, *mechanism));
   PopulationRequest request = ofSoot(mechanism, ensembles.soot, {});
   request.repeats = ensembles.repeats;
@@ -131,19 +164,42 @@ PopulationRequest readSootInCells(const Deck& deck, const MechanismOfDeck& mecha
   return request;
 }
 
+// Spheres of equal weight, which begin with none.
+PopulationRequest readSootOnTrajectory(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed) {
+  EnsembleOptions options;
+  options.soot = readSootModelOptions(deck, *mechanism);
+  options.particles = readTravellers(deck, 40);
+  options.splitTolerance = deck.number("trajectories.split_tolerance");
+  options.seed = seed;
+  return ofSoot(mechanism, options, {});
+}
+
 // The first section that a deck has is that of the kind: `stochastic` may stand beside another, to say how cells hold
 // its particles.
 struct KindOfPopulation {
   const char* section;
-  PopulationRequest (*read)(const Deck& deck, const MechanismOfDeck& mechanism);
+  PopulationRequest (*read)(const Deck& deck, const MechanismOfDeck& mechanism, Beside beside);
   PopulationRequest (*readInCells)(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed);
+  PopulationRequest (*readOnTrajectory)(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed);
 };
-constexpr std::array kinds{KindOfPopulation{"particles", readTreePopulation, readTreesInCells},
-                           KindOfPopulation{"stochastic", readSootPopulation, readSootInCells}};
+constexpr std::array kinds{KindOfPopulation{"particles", readTreePopulation, readTreesInCells, readTreesOnTrajectory},
+                           KindOfPopulation{"stochastic", readSootPopulation, readSootInCells, readSootOnTrajectory}};
 
 const KindOfPopulation* kindOf(const Deck& deck) {
   const auto* found = std::ranges::find_if(kinds, [&](const KindOfPopulation& kind) { return deck.has(kind.section); });
   return found == kinds.end() ? nullptr : found;
+}
+
+// Of one that is made, which finds what it lacks.
+PopulationRequest described(const Deck& deck, const char* section, PopulationRequest request) {
+  request.section = section;
+  deck.at(section, [&] {
+    const auto trial = request.make(0);
+    request.material = trial->material();
+    request.elements = trial->elements();
+    request.species = trial->species();
+  });
+  return request;
 }
 
 }  // namespace
@@ -154,9 +210,18 @@ bool hasPopulation(const Deck& deck) {
 
 PopulationRequest readPopulation(const Deck& deck, const MechanismOfDeck& mechanism) {
   const KindOfPopulation& kind = *kindOf(deck);
-  PopulationRequest request = kind.read(deck, mechanism);
-  request.section = kind.section;
-  return request;
+  return described(deck, kind.section, kind.read(deck, mechanism, Beside::nothing));
+}
+
+PopulationRequest readFlamePopulation(const Deck& deck, const MechanismOfDeck& mechanism) {
+  const KindOfPopulation& kind = *kindOf(deck);
+  return described(deck, kind.section, kind.read(deck, mechanism, Beside::model));
+}
+
+PopulationRequest readTrajectoryPopulation(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed) {
+  const KindOfPopulation* kind = kindOf(deck);
+  const auto read = kind != nullptr ? kind->readOnTrajectory : readSootOnTrajectory;
+  return described(deck, "trajectories", read(deck, mechanism, seed));
 }
 
 PopulationRequest readCellPopulation(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,10 +16,12 @@ namespace lampblack::app {
 
 struct PopulationRequest {
   std::string section;  // of the deck, which says what the particles are like
-  // One with the random numbers of this owner and with what is there from the beginning. InputError.
-  std::function<std::unique_ptr<StochasticPopulation>(std::uint64_t owner)> make;
-  bool hasStart = false;           // whether anything is
-  std::vector<std::string> notes;  // what the user should be told before the run
+  MakePopulation make;
+  std::string material = {};
+  std::vector<std::string> elements = {};  // of the particles
+  std::vector<std::size_t> species = {};   // of the mechanism, that they exchange
+  bool hasStart = false;                   // whether anything is
+  std::vector<std::string> notes;          // what the user should be told before the run
 
   // Of repeats, in reactors and along a given gas.
   std::size_t repeats = 1;
@@ -37,10 +38,17 @@ struct PopulationRequest {
 
 // Whether a deck asks for one.
 [[nodiscard]] bool hasPopulation(const Deck& deck);
-// Of a deck that does, for reactors and along a given gas; for the cells of a flow with the section `stochastic`, whose
-// random numbers begin with `seed`. InputError, pointing into the deck.
+// Of a deck that does, for reactors and along a given gas; for the paths of a flame, where a model may stand beside it,
+// and the section `stochastic`, which says where the paths are, beside another; for the cells of a flow with the
+// section `stochastic`, whose random numbers begin with `seed`; and along trajectories through the flow. InputError,
+// pointing into the deck.
 [[nodiscard]] PopulationRequest readPopulation(const Deck& deck, const std::shared_ptr<const Mechanism>& mechanism);
+[[nodiscard]] PopulationRequest readFlamePopulation(const Deck& deck,
+                                                    const std::shared_ptr<const Mechanism>& mechanism);
 [[nodiscard]] PopulationRequest readCellPopulation(const Deck& deck, const std::shared_ptr<const Mechanism>& mechanism,
                                                    std::uint64_t seed);
+[[nodiscard]] PopulationRequest readTrajectoryPopulation(const Deck& deck,
+                                                         const std::shared_ptr<const Mechanism>& mechanism,
+                                                         std::uint64_t seed);
 
 }  // namespace lampblack::app

@@ -169,10 +169,6 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
 
 TreeMaterial readSoot(const Deck& deck, const Mechanism& mechanism) {
   if (!deck.has("soot")) throw deck.error(materialKey, "soot needs the section 'soot': PAH, surface, switches");
-  if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
-    throw deck.error("soot.model",
-                     "trees of primaries take the place of a model: leave this out, or the section "
-                     "'particles'");
   for (const auto& [key, other] :
        {std::pair{"particles.density", "soot.density"}, std::pair{"particles.enhancement", "soot.van_der_waals"},
         std::pair{"particles.slip", "soot.slip"}, std::pair{"particles.coagulation", "soot.coagulation"}})

@@ -136,8 +136,13 @@ bool isAlong(const Deck& deck) {
   return deck.choice("problem") == "prescribed_gas";
 }
 
+// Where particles ride along paths, without tables and classes, in the gas's own viscosity.
+bool isFlame(const Deck& deck) {
+  return deck.choice("problem") == "flame1d";
+}
+
 bool isPlugFlow(const Deck& deck) {
-  return !isAlong(deck) && deck.choice("reactor.type") == "plug_flow";
+  return deck.choice("problem") == "reactor" && deck.choice("reactor.type") == "plug_flow";
 }
 
 std::string tablesKey(const Deck& deck) {
@@ -211,6 +216,14 @@ void addTreePrescribedGasKeys(DeckSchema& schema) {
   schema.add(tablesAt());
   addRuns(schema);
   addClasses(schema);
+}
+
+void addTreeFlameKeys(DeckSchema& schema) {
+  addTreeKeys(schema,
+              "Particles as trees of primaries that share surface, by Monte Carlo, along the paths of the flame; needs "
+              "the section stochastic, which says where these are.",
+              "2048");
+  addRuns(schema);
 }
 
 TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
@@ -310,15 +323,16 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   TreeRequest request;
   TreeOptions& options = request.options = readTreeOptions(deck, mechanism);
   const bool isSoot = options.material.soot() != nullptr;
-  const std::string viscosity = isAlong(deck) ? "gas.viscosity" : "particles.viscosity";
-  request.viscosity = deck.optionalString(viscosity).value_or(isSoot ? "transport" : "air") == "air"
-                          ? GasViscosity::air
-                          : GasViscosity::transport;
   options.fullAt = deck.quantity("particles.expected_number");
   options.seed = deck.integer<std::uint64_t>("particles.seed");
   request.start = readTreeStart(deck, options);
   request.repeats = deck.integer<std::size_t>("particles.repeats");
   request.bins = readSizeBins(deck, "particles");
+  if (isFlame(deck)) return request;
+  const std::string viscosity = isAlong(deck) ? "gas.viscosity" : "particles.viscosity";
+  request.viscosity = deck.optionalString(viscosity).value_or(isSoot ? "transport" : "air") == "air"
+                          ? GasViscosity::air
+                          : GasViscosity::transport;
   request.tablesAt = readTablesAt(deck);
   if (const std::string key = "particles.classes.collision_diameter"; deck.has(key))
     request.classesByDiameter = risingEdges(deck, key, deck.quantities(key));

@@ -34,11 +34,14 @@ void addTreeReactorKeys(DeckSchema& schema);
 // Adds the keys of the section and those of particles along a given gas.
 void addTreePrescribedGasKeys(DeckSchema& schema);
 
+// Adds the keys of the section and those of particles along the paths of a flame.
+void addTreeFlameKeys(DeckSchema& schema);
+
 // Of a deck with the section, what all problems have. InputError, pointing into the deck.
 [[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);
 // What `particles.initial` says is there from the beginning; a sample that misses moments of it is told.
 [[nodiscard]] std::vector<TreeStart> readTreeStart(const Deck& deck, const TreeOptions& options);
-// Of a reactor or along a given gas.
+// Of a reactor, along a given gas or in a flame.
 [[nodiscard]] TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism);
 
 }  // namespace lampblack::app

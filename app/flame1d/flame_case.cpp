@@ -290,12 +290,9 @@ FlameCase readFlameCase(const Deck& deck) {
     flame.soot = std::make_unique<CarriedParticles>(*flame.mechanism, std::move(model), deck.boolean("soot.diffusion"));
     flame.sootAtLimit = deck.number("soot.sectional.overflow");
   }
-  if (deck.has("stochastic")) {
-    if (!deck.has("soot")) throw deck.error("stochastic", "ensembles need the section 'soot': PAH, surface, switches");
-    flame.stochastic = readStochastic(deck, readSootModelOptions(deck, *flame.mechanism), flame.problem.length,
-                                      flame.problem.type == FlameType::Counterflow);
-    requirePaths(deck, flame);
-  }
+  flame.stochastic =
+      readStochastic(deck, flame.mechanism, flame.problem.length, flame.problem.type == FlameType::Counterflow);
+  if (flame.stochastic) requirePaths(deck, flame);
   if (const auto file = deck.optionalString("initial")) {
     const std::filesystem::path path = deck.resolvePath(*file);
     try {

@@ -24,20 +24,11 @@ void writePath(ResultsWriter& results, std::size_t id, const FlameEnsemblePath& 
   results.dataset(group + "time", {rows}, time, "s", "since the start of the path", 0);
   results.dataset(group + "velocity", {rows}, path.path.velocity, "m/s", "of the particles", 0);
   results.dataset(group + "temperature", {rows}, temperature, "K", "of the gas", 0);
-  const auto repeated = [&](const std::string& name, const std::string& unit, const std::string& text,
-                            const RepeatedValue& value) {
-    results.dataset(group + name, {rows}, value.mean, unit, text + ", mean of the repeats", 0);
-    results.dataset(group + name + "_error", {rows}, value.error, unit, "standard error of that mean", 0);
-  };
-  repeated("number_density", "1/m^3", "particles per volume", path.number);
-  repeated("volume_fraction", "1", "particle volume per volume", path.volumeFraction);
-  repeated("mean_diameter", "m", "number mean of the mobility diameter", path.meanDiameter);
-  repeated("geometric_standard_deviation", "1", "of the mobility diameter, by number", path.geometricDeviation);
-  repeated("primaries_per_aggregate", "1", "mean number of primary particles", path.primaries);
-  repeated("carbon", "kg/m^3", "carbon in particles", path.carbon);
-  repeated("hydrogen", "kg/m^3", "hydrogen in particles", path.hydrogen);
-  repeated("surface", "m^2/m^3", "surface of particles", path.surface);
-
+  for (std::size_t c = 0; c < path.columns.size(); ++c) {
+    const auto& [name, unit, description] = path.columns[c];
+    results.dataset(group + name, {rows}, path.values[c].mean, unit, description + ", mean of the repeats", 0);
+    results.dataset(group + name + "_error", {rows}, path.values[c].error, unit, "standard error of that mean", 0);
+  }
   const std::size_t bins = options.march.bins.count;
   results.dataset(group + "bin_edges", {static_cast<std::int64_t>(bins) + 1}, options.march.bins.edges(), "m",
                   "diameters between the bins", 0);
@@ -57,8 +48,7 @@ void writePath(ResultsWriter& results, std::size_t id, const FlameEnsemblePath& 
   const auto count = static_cast<std::int64_t>(at.size()), columns = static_cast<std::int64_t>(bins);
   if (count == 0) return;
   results.dataset(group + "distribution_z", {count}, at, "m", "where the distributions are", 0);
-  results.dataset(group + "distribution", {count, columns}, mean, "1/m^3",
-                  "dN/dlog10(d) of the mobility diameter, mean of the repeats", 0);
+  results.dataset(group + "distribution", {count, columns}, mean, "1/m^3", "dN/dlog10(d), mean of the repeats", 0);
   results.dataset(group + "distribution_error", {count, columns}, error, "1/m^3", "standard error of that mean", 0);
 }
 

@@ -1,4 +1,4 @@
-// Stochastic soot of a flame in results.h5, under /stochastic.
+// Stochastic particles of a flame in results.h5, under /stochastic.
 #pragma once
 
 #include <span>

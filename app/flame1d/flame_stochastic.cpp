@@ -2,28 +2,26 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <utility>
 
 #include "app/flame1d/flame_ensemble_output.hpp"
 #include "core/errors.hpp"
-#include "particles/collisions/collision_physics.hpp"
 
 namespace lampblack::app {
 namespace {
 
-std::string stepLine(std::size_t k, const FlameCouplingStep& s) {
+std::string stepLine(std::size_t k, const FlameCouplingStep& s, const std::string& watched) {
   return fmt::format(
-      "stochastic, iteration {:<3} {:>5} points  f_v {:.4e} +- {:.1f} %  changes: f_v {:.1e}, T {:.1e}, C2H2 {:.1e}\n",
-      k, s.points, s.volumeFraction, 100 * s.noise, s.volumeFractionChange, s.temperatureChange, s.acetyleneChange);
+      "stochastic, iteration {:<3} {:>5} points  f_v {:.4e} +- {:.1f} %  changes: f_v {:.1e}, T {:.1e}, {} {:.1e}\n", k,
+      s.points, s.volumeFraction, 100 * s.noise, s.volumeFractionChange, s.temperatureChange, watched, s.speciesChange);
 }
 
-// Where the mean volume fraction of a path is largest.
-std::size_t largest(const FlameEnsemblePath& path) {
-  std::size_t best = 0;
-  for (std::size_t k = 0; k < path.volumeFraction.mean.size(); ++k)
-    if (path.volumeFraction.mean[k] > path.volumeFraction.mean[best]) best = k;
-  return best;
+// Where it is largest.
+std::size_t largest(const std::vector<double>& values) {
+  return static_cast<std::size_t>(std::ranges::max_element(values) - values.begin());
 }
 
 }  // namespace
@@ -35,17 +33,15 @@ StochasticFlame runStochasticFlame(MPI_Comm comm, const Mechanism& mechanism, do
   StochasticFlame result;
   const FlameEnsembleOptions& ensemble = request.coupling.ensemble;
   if (!request.twoWay) {
-    FlameSootGas gas;
-    collectively(comm, [&] {
-      gas = flameSootGas(solution.profile, mechanism, pressure, ensemble.soot.soot, waldmannThermophoresis());
-    });
+    GasOfFlame gas;
+    collectively(comm, [&] { gas = gasOfFlame(solution.profile, mechanism, pressure, *ensemble.make(0)); });
     result.paths = runFlameEnsemble(comm, gas, ensemble);
     return result;
   }
   std::size_t k = 0;
   FlameCoupling coupling = coupleFlame(comm, mechanism, pressure, solver, carried, std::move(solution),
                                        request.coupling, [&](const FlameCouplingStep& step) {
-                                         if (rank == 0) fmt::print("{}", stepLine(k, step));
+                                         if (rank == 0) fmt::print("{}", stepLine(k, step, request.watched));
                                          std::fflush(stdout);
                                          ++k;
                                        });
@@ -60,34 +56,38 @@ void writeStochasticFlame(ResultsWriter& results, const StochasticRequest& reque
   writeFlameEnsemble(results, flame.paths, request.coupling.ensemble, request.heights);
   if (flame.steps.empty()) return;
   std::vector<double> rows;
-  for (const FlameCouplingStep& s : flame.steps)
-    rows.insert(rows.end(),
-                {static_cast<double>(s.points), s.volumeFraction, s.noise, s.volumeFractionChange, s.temperatureChange,
-                 s.acetyleneChange, s.carbonTaken, s.carbonLeaving, s.hydrogenTaken, s.hydrogenLeaving, s.seconds});
-  results.table("/stochastic/iterations",
-                {{"points", "1", "of the flame"},
-                 {"volume_fraction", "1", "the largest"},
-                 {"noise", "1", "standard error of it, relative"},
-                 {"volume_fraction_change", "1", "largest change since the last iteration, over the largest value"},
-                 {"temperature_change", "1", "the same of the temperature"},
-                 {"acetylene_change", "1", "the same of the mass fraction of acetylene"},
-                 {"carbon_taken", "kg/m^2/s", "carbon that the ensemble takes from the gas along its paths"},
-                 {"carbon_leaving", "kg/m^2/s", "carbon with which particles leave at the ends of paths"},
-                 {"hydrogen_taken", "kg/m^2/s", "the same of hydrogen"},
-                 {"hydrogen_leaving", "kg/m^2/s", "the same of hydrogen"},
-                 {"seconds", "s", "of the iteration"}},
-                rows);
+  for (const FlameCouplingStep& s : flame.steps) {
+    rows.insert(rows.end(), {static_cast<double>(s.points), s.volumeFraction, s.noise, s.volumeFractionChange,
+                             s.temperatureChange, s.speciesChange});
+    for (std::size_t e = 0; e < s.taken.size(); ++e) rows.insert(rows.end(), {s.taken[e], s.leaving[e]});
+    rows.push_back(s.seconds);
+  }
+  std::vector<Quantity> columns{
+      {"points", "1", "of the flame"},
+      {"volume_fraction", "1", "the largest"},
+      {"noise", "1", "standard error of it, relative"},
+      {"volume_fraction_change", "1", "largest change since the last iteration, over the largest value"},
+      {"temperature_change", "1", "the same of the temperature"},
+      {"species_change", "1", "the same of the mass fraction of " + request.watched}};
+  for (const std::string& element : request.elements) {
+    columns.push_back({element + "_taken", "kg/m^2/s",
+                       "of the element " + element + ", that the ensemble takes from the gas along its paths"});
+    columns.push_back({element + "_leaving", "kg/m^2/s", "the same with which particles leave at the ends of paths"});
+  }
+  columns.push_back({"seconds", "s", "of the iteration"});
+  results.table("/stochastic/iterations", columns, rows);
 }
 
 void recordStochasticFlame(JsonWriter& json, const StochasticFlame& flame) {
   json.key("stochastic").beginObject();
   double most = 0, error = 0;
   for (const FlameEnsemblePath& path : flame.paths) {
-    if (path.volumeFraction.mean.empty()) continue;
-    const std::size_t k = largest(path);
-    if (path.volumeFraction.mean[k] <= most) continue;
-    most = path.volumeFraction.mean[k];
-    error = path.volumeFraction.error[k];
+    if (path.path.z.empty()) continue;
+    const RepeatedValue& fraction = path.valuesOf("volume_fraction");
+    const std::size_t k = largest(fraction.mean);
+    if (fraction.mean[k] <= most) continue;
+    most = fraction.mean[k];
+    error = fraction.error[k];
   }
   json.field("maximum_volume_fraction", most).field("maximum_volume_fraction_error", error);
   double seconds = 0;
@@ -98,7 +98,7 @@ void recordStochasticFlame(JsonWriter& json, const StochasticFlame& flame) {
 }
 
 std::string stochasticFlameReport(const StochasticFlame& flame) {
-  std::string text = "\nStochastic soot\n";
+  std::string text = "\nStochastic particles\n";
   for (const FlameEnsemblePath& path : flame.paths) {
     const auto& points = path.path.path.points;
     if (points.empty()) {
@@ -106,21 +106,23 @@ std::string stochasticFlameReport(const StochasticFlame& flame) {
                           path.options.fromRight ? "right" : "left");
       continue;
     }
-    const std::size_t k = largest(path);
+    const RepeatedValue& fraction = path.valuesOf("volume_fraction");
+    const std::size_t k = largest(fraction.mean);
     text += fmt::format(
         "  from z = {:.4g} mm to {:.4g} mm ({}), {:.3g} ms: volume fraction up to {:.4e} +- {:.1e} at {:.4g} mm, "
         "number "
         "{:.3e} 1/m^3, mean diameter {:.3g} nm\n",
         1e3 * path.path.z.front(), 1e3 * path.path.z.back(),
         path.path.stagnates ? "near the stagnation plane" : "the end of the flame", 1e3 * points.back().time,
-        path.volumeFraction.mean[k], path.volumeFraction.error[k], 1e3 * path.path.z[k], path.number.mean[k],
-        1e9 * path.meanDiameter.mean[k]);
+        fraction.mean[k], fraction.error[k], 1e3 * path.path.z[k], path.valuesOf("number_density").mean[k],
+        1e9 * path.valuesOf("mean_diameter").mean[k]);
   }
   if (flame.steps.empty()) return text;
   const FlameCouplingStep& s = flame.steps.back();
-  text +=
-      fmt::format("  {} after {} iterations; carbon taken from the gas {:.6e}, leaving with particles {:.6e} kg/m2/s\n",
-                  flame.converged ? "settled" : "NOT settled", flame.steps.size(), s.carbonTaken, s.carbonLeaving);
+  text += fmt::format("  {} after {} iterations; taken from the gas {:.6e}, leaving with particles {:.6e} kg/m2/s\n",
+                      flame.converged ? "settled" : "NOT settled", flame.steps.size(),
+                      std::accumulate(s.taken.begin(), s.taken.end(), 0.0),
+                      std::accumulate(s.leaving.begin(), s.leaving.end(), 0.0));
   return text;
 }
 

@@ -5,13 +5,16 @@
 #include <string>
 
 #include "app/deck/ensemble_deck.hpp"
+#include "app/deck/population_deck.hpp"
+#include "app/deck/trees_deck.hpp"
 
 namespace lampblack::app {
 
 void addStochasticKeys(DeckSchema& schema) {
   addEnsembleKeys(schema,
-                  "Ensembles of soot particles along the flame, by repeats of independent random numbers; needs the "
-                  "section soot, whose PAH, surface and switches are theirs.");
+                  "Ensembles of particles along the flame, by repeats of independent random numbers: of soot, with the "
+                  "section soot, whose PAH, surface and switches are theirs; or those of the section particles, of "
+                  "which this one says where they go and how they are coupled with the gas.");
   addRepeatKeys(schema);
   schema
       .add(choiceKey("stochastic.coupling", {"decoupled", "two_way"},
@@ -44,16 +47,22 @@ void addStochasticKeys(DeckSchema& schema) {
                .atMost(1)
                .onlyWith("stochastic.coupling", {"two_way"}))
       .add(numberKey("stochastic.tolerance",
-                     "The iteration has converged where volume fraction, temperature and acetylene change relatively "
+                     "The iteration has converged where volume fraction, temperature and the main species of growth "
+                     "change relatively "
                      "by less than this.")
                .byDefault("0.01")
                .above(0)
                .onlyWith("stochastic.coupling", {"two_way"}));
+  addTreeFlameKeys(schema);
 }
 
-std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootModelOptions& soot, double length,
-                                                bool bothSides) {
-  if (!deck.has("stochastic")) return std::nullopt;
+std::optional<StochasticRequest> readStochastic(const Deck& deck, const std::shared_ptr<const Mechanism>& mechanism,
+                                                double length, bool bothSides) {
+  if (!hasPopulation(deck)) return std::nullopt;
+  if (!deck.has("stochastic"))
+    throw deck.error("particles",
+                     "in a flame these need the section 'stochastic', which says where they go and how they are "
+                     "coupled with the gas: 'stochastic: {coupling: decoupled}'");
   StochasticRequest request;
   request.twoWay = deck.choice("stochastic.coupling") == "two_way";
   FlameCouplingOptions& coupling = request.coupling;
@@ -61,10 +70,12 @@ std::optional<StochasticRequest> readStochastic(const Deck& deck, const SootMode
   coupling.relaxation = deck.number("stochastic.relaxation");
   coupling.tolerance = deck.number("stochastic.tolerance");
   FlameEnsembleOptions& ensemble = coupling.ensemble;
-  const EnsembleRequest given = readEnsemble(deck, soot);
-  ensemble.soot = given.soot;
+  const PopulationRequest given = readFlamePopulation(deck, mechanism);
+  ensemble.make = given.make;
   ensemble.repeats = given.repeats;
   ensemble.march.bins = given.bins;
+  request.elements = given.elements;
+  request.watched = mechanism->speciesName(given.species[given.make(0)->watchedSpecies()]);
   FlamePathOptions path;
   path.slowest = deck.quantity("stochastic.minimum_velocity");
   path.start = deck.optionalQuantity("stochastic.start");

@@ -284,12 +284,9 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (!flowCase.carried && !flowCase.ensembles)
     throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
   TrajectoryRequest options;
-  options.soot = readSootModelOptions(deck, *flowCase.mechanism);
-  deck.at("trajectories", [&] { return indicesOfSootSpecies(*flowCase.mechanism, options.soot); });
+  options.make = readTrajectoryPopulation(deck, flowCase.mechanism, flowCase.seed).make;
   options.duration = deck.quantity("trajectories.duration");
   options.timeStep = deck.quantity("trajectories.time_step");
-  options.particles = deck.integer<int>("trajectories.particles");
-  options.splitTolerance = deck.number("trajectories.split_tolerance");
   options.bins = readSizeBins(deck, "trajectories");
   options.gasTables = deck.boolean("trajectories.gas_tables");
   if (options.timeStep > options.duration)

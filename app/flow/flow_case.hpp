@@ -114,13 +114,11 @@ struct CheckpointControl {
 };
 
 struct TrajectoryRequest {
-  std::vector<Vector3> starts;   // m, along the mesh's axes
-  double duration = 0.0;         // s, at most
-  double timeStep = 0.0;         // s, between samples of the gas
-  int particles = 0;             // capacity of each ensemble
-  double splitTolerance = 0.01;  // relative change of an ensemble in a splitting step
+  std::vector<Vector3> starts;  // m, along the mesh's axes
+  double duration = 0.0;        // s, at most
+  double timeStep = 0.0;        // s, between samples of the gas
+  MakePopulation make;
   SizeBins bins;
-  SootModelOptions soot;
   bool gasTables = false;    // the gas of each path as a table for prescribed_gas
   std::optional<Deck> deck;  // whose lines messages point at
 };

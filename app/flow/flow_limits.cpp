@@ -21,9 +21,6 @@ void refuseTrajectories(const Deck& deck, const TrajectoryRequest& request) {
                 fmt::format("{:.3g} time steps along each path, with {} bins,", steps, request.bins.count),
                 paths * steps * bytes);
   requireOutputs(deck, "trajectories.time_step", "rows of trajectories", paths * steps, bytes);
-  // A rank has one ensemble at a time; a particle is a mass, a carbon and a hydrogen number at least.
-  requireMemory(deck, "trajectories.particles", fmt::format("an ensemble of {} particles", request.particles),
-                3 * number * request.particles);
 }
 
 }  // namespace

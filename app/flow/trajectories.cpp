@@ -20,7 +20,7 @@
 #include "flow/paths/streamline.hpp"
 #include "io/csv.hpp"
 #include "particles/collisions/collision_physics.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/stochastic/population_path.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -30,13 +30,14 @@ struct Trajectory {
   std::vector<Vector3> places;  // m
   ParticlePath path;
   std::string gasTable;  // of all species; empty: not wanted
-  std::vector<EnsemblePathRecord> records;
+  std::vector<PathRecord> records;
 };
 
+// `columns`: of the population.
 void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Mesh& mesh, const Trajectory& trajectory,
-                     const EnsemblePathOptions& options) {
+                     const std::vector<Quantity>& columns, const SizeBins& bins) {
   const std::string group = fmt::format("/trajectories/{}/", id);
-  const std::vector<EnsemblePathRecord>& records = trajectory.records;
+  const std::vector<PathRecord>& records = trajectory.records;
   const auto rows = static_cast<std::int64_t>(records.size());
   const auto column = [&](const std::string& name, const std::string& unit, const std::string& description, auto&& of) {
     std::vector<double> values;
@@ -46,25 +47,21 @@ void writeTrajectory(ResultsWriter& results, std::size_t id, int owner, const Me
   column("time", "s", "time along the path", [&](std::size_t i) { return trajectory.path.points[i].time; });
   column("temperature", "K", "gas temperature",
          [&](std::size_t i) { return trajectory.path.points[i].gas.temperature; });
-  column("number_density", "1/m^3", "particles per volume", [&](std::size_t i) { return records[i].totals.number; });
-  column("volume_fraction", "1", "particle volume per volume",
-         [&](std::size_t i) { return records[i].volumeFraction; });
-  column("mean_diameter", "m", "number mean of the diameter",
-         [&](std::size_t i) { return records[i].totals.meanDiameter(); });
-  column("geometric_standard_deviation", "1", "of the diameter, by number",
-         [&](std::size_t i) { return records[i].geometricDeviation; });
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    column(columns[c].name, columns[c].unit, columns[c].description,
+           [&](std::size_t i) { return records[i].values[c]; });
   std::vector<double> position;
   std::vector<double> distribution;
   for (std::size_t i = 0; i < records.size(); ++i) {
     position.insert(position.end(), trajectory.places[i].begin(), trajectory.places[i].begin() + mesh.dimension);
     distribution.insert(distribution.end(), records[i].distribution.begin(), records[i].distribution.end());
   }
-  const auto bins = static_cast<std::int64_t>(options.bins.count);
+  const auto count = static_cast<std::int64_t>(bins.count);
   results.dataset(group + "position", {rows, mesh.dimension}, position, "m",
                   fmt::format("coordinates {}", fmt::join(flowcase::axisNames(mesh.geometry, mesh.dimension), ", ")),
                   owner);
-  results.dataset(group + "bin_edges", {bins + 1}, options.bins.edges(), "m", "diameters between the bins", owner);
-  results.dataset(group + "size_distribution", {rows, bins}, distribution, "1/m^3", "dN/dlog10(d)", owner);
+  results.dataset(group + "bin_edges", {count + 1}, bins.edges(), "m", "diameters between the bins", owner);
+  results.dataset(group + "size_distribution", {rows, count}, distribution, "1/m^3", "dN/dlog10(d)", owner);
 }
 
 // Of a path whose gas has all species.
@@ -227,7 +224,8 @@ void Trajectories::run(const FlowContext& context, const State& state, const Gas
                        ResultsWriter& results, const RunFolder* folder) const {
   const TrajectoryRequest& request = *case_.trajectories;
   const Mesh& m = context.mesh;
-  const std::vector<std::size_t> species = indicesOfSootSpecies(context.mechanism, request.soot);
+  const auto kind = request.make(0);
+  const std::vector<std::size_t>& species = kind->species();
   const Streamlines streamlines(context, state, properties, waldmannThermophoresis());
   const TracedPaths traced = streamlines.trace(request.starts, request.timeStep, request.duration);
   const bool hasTables = request.gasTables && folder != nullptr;
@@ -238,13 +236,8 @@ void Trajectories::run(const FlowContext& context, const State& state, const Gas
   }
   const PathGas gas(context, state, properties, carried);
 
-  EnsemblePathOptions march;
+  PathMarch march;
   march.bins = request.bins;
-  EnsembleOptions options;
-  options.particles = static_cast<std::size_t>(request.particles);
-  options.splitTolerance = request.splitTolerance;
-  options.seed = case_.seed;
-  options.soot = request.soot;
 
   std::vector<Trajectory> trajectories(request.starts.size());
   std::vector<double> costs;
@@ -260,9 +253,8 @@ void Trajectories::run(const FlowContext& context, const State& state, const Gas
         one.gasTable = gasTableOf(context.mechanism, one.path);
         one.path = pathOf(std::move(one.path), species);
       }
-      options.owner = id;
       try {
-        one.records = marchPath(*makeEnsemble(options), one.path, march).records;
+        one.records = marchPath(*request.make(id), one.path, march).records;
       } catch (const NumericsError& error) {
         throw NumericsError(fmt::format("{}: {}", nameOf(request, id, m), error.what()));
       }
@@ -277,7 +269,7 @@ void Trajectories::run(const FlowContext& context, const State& state, const Gas
           writeFileAtomically(folder->table(fmt::format("streamline_{}", id)), trajectories[id].gasTable);
     });
   for (std::size_t id = 0; id < trajectories.size(); ++id)
-    writeTrajectory(results, id, owners[id], m, trajectories[id], march);
+    writeTrajectory(results, id, owners[id], m, trajectories[id], kind->columns(), request.bins);
 }
 
 }  // namespace lampblack::app

@@ -120,18 +120,9 @@ void readParticles(const Deck& deck, PrescribedGasCase& along) {
     if (deck.choice("soot.model") == "sectional") along.sootAtLimit = deck.number("soot.sectional.overflow");
     return;
   }
-  if (deck.isGiven("soot.model") && deck.choice("soot.model") != "none")
-    throw deck.error("soot.model",
-                     "an ensemble takes the place of a model: leave this out, or the section 'stochastic'");
   for (const char* key : {"stochastic.coupling", "stochastic.coupling_change"})
     if (deck.isGiven(key)) throw deck.error(key, "with gas.exchange: one_way nothing is coupled; leave this out");
-  along.ensemble = readEnsemble(deck, readSootModelOptions(deck, *along.mechanism));
-  try {
-    static_cast<void>(indicesOfSootSpecies(*along.mechanism, along.ensemble->soot.soot));
-    static_cast<void>(makeEnsemble(along.ensemble->soot));
-  } catch (const InputError& error) {
-    throw deck.error("stochastic", error.what());
-  }
+  along.ensemble = readPopulation(deck, along.mechanism);
 }
 
 std::vector<std::string> precursorsOf(const Deck& deck, const Mechanism& mechanism) {
@@ -202,8 +193,12 @@ PrescribedGasCase readPrescribedGasCase(const Deck& deck) {
   }
   readParticles(deck, along);
   if (along.model) along.depleted = readDepleted(deck, *along.mechanism, *along.model);
-  along.path = readPath(deck, *along.mechanism,
-                        along.ensemble ? sootSpecies(along.ensemble->soot.soot) : along.model->gasSpecies());
+  std::vector<std::string> seen;
+  if (along.ensemble)
+    for (const std::size_t k : along.ensemble->species) seen.push_back(along.mechanism->speciesName(k));
+  else
+    seen = along.model->gasSpecies();
+  along.path = readPath(deck, *along.mechanism, seen);
   const std::vector<double> rows = readRows(deck, along.path.points.front().time, along.path.points.back().time);
   along.recorded = insertPoints(along.path, rows);
   along.path.points.resize(along.recorded.back() + 1);

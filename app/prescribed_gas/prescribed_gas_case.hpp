@@ -8,12 +8,12 @@
 #include <string>
 #include <vector>
 
-#include "app/deck/ensemble_deck.hpp"
+#include "app/deck/population_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/modules.hpp"
 #include "io/deck.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/gas/gas_path.hpp"
 #include "particles/models/particle_model.hpp"
 
 namespace lampblack::app {
@@ -25,7 +25,7 @@ struct PrescribedGasCase {
 
   ParticlePath path;
   std::vector<std::size_t> recorded;  // points of the path with a row
-  std::optional<EnsembleRequest> ensemble;
+  std::optional<PopulationRequest> ensemble;
   std::unique_ptr<ParticleModel> model;  // where there is no ensemble
   std::vector<std::size_t> depleted;     // of the model's species
   double sootAtLimit = 1;                // as ReactorCase

@@ -8,41 +8,6 @@
 namespace lampblack::app {
 namespace {
 
-struct NamedValue {
-  const char *name, *unit, *description;
-  RepeatedValue PathEnsemble::*value;
-};
-constexpr NamedValue namedValues[] = {
-    {"soot_number_density", "1/m^3", "particles", &PathEnsemble::number},
-    {"soot_volume_fraction", "1", "particle volume per volume of gas", &PathEnsemble::volumeFraction},
-    {"soot_mass", "kg/m^3", "mass of particles", &PathEnsemble::mass},
-    {"soot_mean_diameter", "m", "of the sphere of mean volume", &PathEnsemble::volumeDiameter},
-    {"soot_mobility_diameter", "m", "mean mobility diameter, by number", &PathEnsemble::meanDiameter},
-    {"soot_geometric_deviation", "1", "of the diameter of mobility, by number", &PathEnsemble::geometricDeviation},
-    {"soot_surface_area", "m^2/m^3", "surface of all particles", &PathEnsemble::surface},
-    {"soot_primaries", "1", "primary particles in an aggregate", &PathEnsemble::primaries},
-    {"soot_carbon", "kg/m^3", "carbon in particles", &PathEnsemble::carbon},
-    {"soot_hydrogen", "kg/m^3", "hydrogen in particles", &PathEnsemble::hydrogen},
-    {"soot_mass_squared", "kg^2/m^3", "sum of the squares of the masses", &PathEnsemble::massSquared},
-    {"soot_mass_cubed", "kg^3/m^3", "sum of the cubes of the masses", &PathEnsemble::massCubed},
-    {"coagulation_events", "1", "collisions of numerical particles since the start", &PathEnsemble::coagulations}};
-
-struct NamedRate {
-  const char *name, *unit, *description;
-  double EnsembleExchange::*value;
-};
-constexpr NamedRate namedRates[] = {
-    {"nucleation_number", "1/m^3/s", "new particles", &EnsembleExchange::nucleatedNumber},
-    {"oxidation_number", "1/m^3/s", "particles oxidised away", &EnsembleExchange::oxidisedNumber},
-    {"nucleation", "kg/m^3/s", "soot mass from nucleation", &EnsembleExchange::nucleated},
-    {"condensation", "kg/m^3/s", "soot mass from condensation", &EnsembleExchange::condensed},
-    {"growth", "kg/m^3/s", "soot mass from surface growth", &EnsembleExchange::grown},
-    {"oxidation_O2", "kg/m^3/s", "soot mass lost by oxidation by O2", &EnsembleExchange::oxidisedO2},
-    {"oxidation_OH", "kg/m^3/s", "soot mass lost by oxidation by OH", &EnsembleExchange::oxidisedOH},
-    {"dilution_carbon", "kg/m^3/s", "carbon lost by the expansion of the gas", &EnsembleExchange::dilutedCarbon},
-    {"resampled_carbon", "kg/m^3/s", "carbon of numerical particles that come and go, zero in the mean",
-     &EnsembleExchange::resampledCarbon}};
-
 const Quantity gasColumns[] = {{"time", "s", "time"},
                                {"temperature", "K", "gas temperature"},
                                {"pressure", "Pa", "pressure"},
@@ -57,12 +22,11 @@ void appendGas(const PrescribedGasCase& along, std::size_t row, std::vector<doub
 
 PrescribedGasTable historyOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
   PrescribedGasTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
-  for (const NamedValue& v : namedValues) addRepeatColumns({v.name, v.unit, v.description}, table.columns);
+  for (const Quantity& column : ensemble.columns) addRepeatColumns(column, table.columns);
   const RepeatIntervals intervals(along.ensemble->repeats);
   for (std::size_t row = 0; row < along.recorded.size(); ++row) {
     appendGas(along, row, table.rows);
-    for (const NamedValue& v : namedValues)
-      intervals.append((ensemble.*v.value).mean[row], (ensemble.*v.value).error[row], table.rows);
+    for (const RepeatedValue& value : ensemble.values) intervals.append(value.mean[row], value.error[row], table.rows);
   }
   return table;
 }
@@ -93,14 +57,15 @@ PrescribedGasTable historyOf(const PrescribedGasCase& along, const ModelAlong& m
 
 PrescribedGasTable ratesOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
   PrescribedGasTable table{{{"from", "s", "begin of the interval"}, {"to", "s", "end of the interval"}}, {}};
-  for (const NamedRate& r : namedRates) addRepeatColumns({r.name, r.unit, r.description}, table.columns);
+  for (const auto& [name, unit, description] : ensemble.processes)
+    addRepeatColumns({name, unit + "/s", description}, table.columns);
   const RepeatIntervals intervals(along.ensemble->repeats);
   for (std::size_t i = 0; i < ensemble.exchange.size(); ++i) {
     const double from = along.path.points[along.recorded[i]].time, to = along.path.points[along.recorded[i + 1]].time;
     table.rows.insert(table.rows.end(), {from, to});
-    for (const NamedRate& r : namedRates)
-      intervals.append(ensemble.exchange[i].*r.value / (to - from), ensemble.exchangeError[i].*r.value / (to - from),
-                       table.rows);
+    for (std::size_t k = 0; k < ensemble.processes.size(); ++k)
+      intervals.append(ensemble.exchange[i].processes[k] / (to - from),
+                       ensemble.exchangeError[i].processes[k] / (to - from), table.rows);
   }
   return table;
 }
@@ -139,8 +104,7 @@ void recordPrescribedGas(JsonWriter& json, const PrescribedGasTable& history) {
 
 void recordCounts(JsonWriter& json, const PathEnsemble& ensemble) {
   json.key("counts").beginObject();
-  for (const PopulationCounter& counter : populationCounters)
-    json.field(counter.name, static_cast<std::int64_t>(ensemble.counters.*counter.value));
+  for (const auto& [name, count] : ensemble.counts) json.field(name, static_cast<std::int64_t>(count));
   json.endObject();
 }
 

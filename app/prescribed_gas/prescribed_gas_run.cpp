@@ -33,9 +33,8 @@ class PreparedPrescribedGas : public PreparedRun {
                          case_.coupled->rows.size());
     const auto& points = case_.path.points;
     const std::string what =
-        case_.ensemble
-            ? fmt::format("{} repeats of {} particles", case_.ensemble->repeats, case_.ensemble->soot.particles)
-            : fmt::format("{} with {} scalars", deck_.choice("soot.model"), case_.model->scalars().size());
+        case_.ensemble ? fmt::format("{} repeats of {}", case_.ensemble->repeats, case_.ensemble->material)
+                       : fmt::format("{} with {} scalars", deck_.choice("soot.model"), case_.model->scalars().size());
     return fmt::format("{}, {:g} to {:g} s, {} rows", what, points.front().time, points.back().time,
                        case_.recorded.size());
   }
@@ -47,7 +46,8 @@ class PreparedPrescribedGas : public PreparedRun {
       });
       return;
     }
-    recordedRun(comm_, deck_, options, case_.ensemble ? case_.ensemble->soot.seed : 0,
+    recordedRun(comm_, deck_, options,
+                case_.ensemble ? deck_.integer<std::uint64_t>(case_.ensemble->section + ".seed") : 0,
                 [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
                   const double begin = MPI_Wtime();
                   const auto measure = [&] {
@@ -77,30 +77,30 @@ class PreparedPrescribedGas : public PreparedRun {
   }
 
   void runEnsemble(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-    const EnsembleRequest& request = *case_.ensemble;
-    EnsemblePathOptions march;
+    const PopulationRequest& request = *case_.ensemble;
+    PathMarch march;
     march.bins = request.bins;
     march.recorded = case_.recorded;
     const PathEnsemble ensemble =
-        runPathEnsemble(comm_, case_.path, request.soot, request.repeats, march, "stochastic soot");
+        runPathEnsemble(comm_, case_.path, request.make, 0, request.repeats, march, "stochastic particles");
     ResultsWriter results(comm_, folder.results(), info);
     const PrescribedGasTable history = historyOf(case_, ensemble), rates = ratesOf(case_, ensemble);
     writeHistory(folder, results, history);
     results.table("/rates", rates.columns, rates.rows);
     writeDistributions(results, case_, ensemble);
     results.close();
-    record.steps = static_cast<std::int64_t>(ensemble.counters.splitSteps);
+    record.steps = static_cast<std::int64_t>(ensemble.count("split_steps"));
     finish(record, history, [&](JsonWriter& json) {
       json.field("repeats", static_cast<std::int64_t>(request.repeats));
       recordCounts(json, ensemble);
     });
+    const RepeatedValue &fraction = ensemble.valuesOf("volume_fraction"), &number = ensemble.valuesOf("number_density");
     if (rank_ == 0)
       fmt::print(
           "volume fraction {:.5g} +- {:.2g}, {:.5g} +- {:.2g} particles a cubic metre, {} repeats, {} splitting "
           "steps, {}\n",
-          ensemble.volumeFraction.mean.back(), ensemble.volumeFraction.error.back(), ensemble.number.mean.back(),
-          ensemble.number.error.back(), request.repeats, ensemble.counters.splitSteps,
-          formatDuration(ensemble.seconds));
+          fraction.mean.back(), fraction.error.back(), number.mean.back(), number.error.back(), request.repeats,
+          record.steps, formatDuration(ensemble.seconds));
   }
 
   void runModel(const RunFolder& folder, const RunInfo& info, RunRecord& record) {

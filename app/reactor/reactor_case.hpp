@@ -33,10 +33,7 @@ struct ReactorOutput {
 
 // Stochastic populations: repeats of the reactor with one each, whose random numbers have an owner each.
 struct ReactorPopulations : PopulationRequest {
-  std::string material = {};
-  std::vector<std::string> elements = {};
-  std::vector<std::size_t> species = {};  // that they exchange
-  bool predicted = false;                 // coupled by predictor and corrector, or by splitting
+  bool predicted = false;  // coupled by predictor and corrector, or by splitting
 };
 
 struct ReactorCase {

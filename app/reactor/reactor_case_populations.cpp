@@ -42,14 +42,8 @@ void readPopulations(const Deck& deck, ReactorCase& reactorCase) {
                        "results of ensembles bear the name of the reactor, which may have no '/'");
   reactorCase.couplingChange = deck.number(section + ".coupling_change");
   populations.predicted = readPredicted(deck, section, reactorCase);
-  // One, to find what it lacks.
-  deck.at(section, [&] {
-    const auto trial = populations.make(0);
-    const ReactorGas gas(*reactorCase.mechanism, trial->species(), populations.viscosity);
-    populations.material = trial->material();
-    populations.elements = trial->elements();
-    populations.species = trial->species();
-  });
+  // To find what it lacks.
+  deck.at(section, [&] { const ReactorGas gas(*reactorCase.mechanism, populations.species, populations.viscosity); });
   const std::vector<StirredReactor>& stirred = reactorCase.network.reactors;
   const bool isGiven =
       reactorCase.profile || reactorCase.type == ReactorType::GivenGas ||

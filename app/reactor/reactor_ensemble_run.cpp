@@ -138,7 +138,7 @@ class EnsembleReactorDriver : public ReactorDriver {
     if (const double pairs = count("collision_pairs"); pairs > 0)
       fmt::print("{:g} of {:g} pairs of particles above the majorant\n", count("collision_pairs_above_majorant"),
                  pairs);
-    if (const double removals = count("removals"); removals > 0)
+    if (const double removals = count("removals"); removals > 0 && counts("samples_never_full"))
       fmt::print(
           "note: samples were full: {:g} numerical particles were removed at random, which keeps mass in the "
           "mean only; choose a larger 'particles.number' or 'particles.expected_number'\n",
@@ -164,6 +164,9 @@ class EnsembleReactorDriver : public ReactorDriver {
 
   [[nodiscard]] std::vector<std::size_t> shown() const { return shownColumns(case_, columns_); }
   [[nodiscard]] std::int64_t whole(Shape::Work which) const { return static_cast<std::int64_t>(work_[which]); }
+  [[nodiscard]] bool counts(const std::string& name) const {
+    return std::ranges::any_of(counts_, [&](const auto& count) { return count.first == name; });
+  }
   [[nodiscard]] double count(const std::string& name) const {
     for (const auto& [known, value] : counts_)
       if (known == name) return value;

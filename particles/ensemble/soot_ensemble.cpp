@@ -14,6 +14,22 @@ namespace {
 
 constexpr std::uint32_t startStream = 0x53544152;
 
+struct SootProcess {
+  const char *name, *unit, *description;
+  double EnsembleExchange::*amount;
+};
+constexpr SootProcess sootProcesses[] = {
+    {"nucleation_number", "1/m^3", "new particles", &EnsembleExchange::nucleatedNumber},
+    {"oxidation_number", "1/m^3", "particles oxidised away", &EnsembleExchange::oxidisedNumber},
+    {"nucleation", "kg/m^3", "soot mass from nucleation", &EnsembleExchange::nucleated},
+    {"condensation", "kg/m^3", "soot mass from condensation", &EnsembleExchange::condensed},
+    {"growth", "kg/m^3", "soot mass from surface growth", &EnsembleExchange::grown},
+    {"oxidation_O2", "kg/m^3", "soot mass lost by oxidation by O2", &EnsembleExchange::oxidisedO2},
+    {"oxidation_OH", "kg/m^3", "soot mass lost by oxidation by OH", &EnsembleExchange::oxidisedOH},
+    {"dilution_carbon", "kg/m^3", "carbon lost by the expansion of the gas", &EnsembleExchange::dilutedCarbon},
+    {"resampled_carbon", "kg/m^3", "carbon of numerical particles that come and go, zero in the mean",
+     &EnsembleExchange::resampledCarbon}};
+
 }  // namespace
 
 SootEnsemble::SootEnsemble(const Mechanism& mechanism, EnsembleOptions options, const InitialPopulation& start)
@@ -21,8 +37,7 @@ SootEnsemble::SootEnsemble(const Mechanism& mechanism, EnsembleOptions options, 
                             indicesOfSootSpecies(mechanism, options.soot),
                             {"C", "H"},
                             {sootAggregate(options), {packedHead, false}}}),
-      ensemble_(makeEnsemble(std::move(options))),
-      resampled_(elements().size()) {
+      ensemble_(makeEnsemble(std::move(options))) {
   if (!(start.number > 0)) return;
   const EnsembleOptions& own = ensemble_->options();
   RandomStream random(own.seed, own.owner, startStream);
@@ -42,10 +57,27 @@ bool SootEnsemble::hasPrecursors(const ParticleGas& gas) const {
 }
 
 StochasticPopulation::Exchange SootEnsemble::takeExchange() {
-  const EnsembleExchange taken = ensemble_->takeExchange();
-  resampled_ = {taken.resampledCarbon, taken.resampledHydrogen};
-  return {{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species().size())},
-          {taken.carbon, taken.hydrogen}};
+  taken_ = ensemble_->takeExchange();
+  return {{taken_.gas.begin(), taken_.gas.begin() + static_cast<std::ptrdiff_t>(species().size())},
+          {taken_.carbon, taken_.hydrogen}};
+}
+
+std::vector<std::size_t> SootEnsemble::pathSpecies() const {
+  std::vector<std::size_t> places{SootSpecies::H, SootSpecies::OH, SootSpecies::O2, SootSpecies::C2H2};
+  for (std::size_t k = SootSpecies::fixed; k < species().size(); ++k) places.push_back(k);
+  return places;
+}
+
+std::vector<Quantity> SootEnsemble::processes() const {
+  std::vector<Quantity> all;
+  for (const SootProcess& process : sootProcesses) all.push_back({process.name, process.unit, process.description});
+  return all;
+}
+
+std::vector<double> SootEnsemble::amountsOfProcesses() const {
+  std::vector<double> all;
+  for (const SootProcess& process : sootProcesses) all.push_back(taken_.*process.amount);
+  return all;
 }
 
 std::vector<double> SootEnsemble::content() {
@@ -78,12 +110,17 @@ std::vector<Quantity> SootEnsemble::columns() const {
           {"soot_geometric_deviation", "1", "of the diameter of mobility, by number"},
           {"soot_surface_area", "m^2/m^3", "surface of all particles"},
           {"soot_carbon", "kg/m^3", "carbon in particles"},
-          {"soot_hydrogen", "kg/m^3", "hydrogen in particles"}};
+          {"soot_hydrogen", "kg/m^3", "hydrogen in particles"},
+          {"soot_mass", "kg/m^3", "mass of all particles"},
+          {"soot_mass_squared", "kg^2/m^3", "sum of the squared masses of particles"},
+          {"soot_mass_cubed", "kg^3/m^3", "sum of the cubed masses of particles"},
+          {"soot_primaries", "1", "primary particles in an aggregate, mean"},
+          {"soot_coagulation_events", "1", "collisions of numerical particles since the beginning"}};
 }
 
 std::vector<double> SootEnsemble::values(const ParticleGas&) const {
   const Ensemble::Totals totals = ensemble_->totals();
-  const double fraction = ensemble_->volumeFraction();
+  const double density = ensemble_->options().soot.sootDensity, fraction = totals.mass() / density;
   return {fraction,
           totals.number,
           totals.number > 0 ? std::cbrt(6 / constants::pi * fraction / totals.number) : 0.0,
@@ -91,7 +128,19 @@ std::vector<double> SootEnsemble::values(const ParticleGas&) const {
           ensemble_->geometricDeviation(),
           totals.surface,
           totals.carbon,
-          totals.hydrogen};
+          totals.hydrogen,
+          totals.mass(),
+          density * density * ensemble_->moment(2),
+          density * density * density * ensemble_->moment(3),
+          totals.number > 0 ? totals.primaries / totals.number : 0.0,
+          static_cast<double>(ensemble_->counters().coagulations)};
+}
+
+std::vector<std::pair<std::string, double>> SootEnsemble::counts() const {
+  std::vector<std::pair<std::string, double>> all;
+  for (const PopulationCounter& counter : populationCounters)
+    all.emplace_back(counter.name, static_cast<double>(ensemble_->counters().*counter.value));
+  return all;
 }
 
 std::vector<ParticleFunctional> SootEnsemble::functionals() const {

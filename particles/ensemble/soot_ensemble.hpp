@@ -26,8 +26,18 @@ class SootEnsemble final : public StochasticPopulation {
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
   void advance(const ParticleGas& gas, double dt) override { ensemble_->advance(gas, 0, dt); }
+  // Diluted within its splitting steps.
+  void advanceDiverging(const ParticleGas& gas, double divergence, double dt) override {
+    ensemble_->advance(gas, divergence, dt);
+  }
+  [[nodiscard]] std::vector<std::size_t> pathSpecies() const override;
+  [[nodiscard]] std::size_t watchedSpecies() const override { return SootSpecies::C2H2; }
   Exchange takeExchange() override;
-  [[nodiscard]] std::vector<double> resampled() const override { return resampled_; }
+  [[nodiscard]] std::vector<double> resampled() const override {
+    return {taken_.resampledCarbon, taken_.resampledHydrogen};
+  }
+  [[nodiscard]] std::vector<Quantity> processes() const override;
+  [[nodiscard]] std::vector<double> amountsOfProcesses() const override;
   void dilute(double factor) override { ensemble_->dilute(factor); }
   [[nodiscard]] std::size_t size() const override { return ensemble_->size(); }
   [[nodiscard]] std::uint64_t removals() const override { return ensemble_->counters().removals; }
@@ -40,7 +50,11 @@ class SootEnsemble final : public StochasticPopulation {
   void addAmounts(const double* row, double number, std::span<double> amounts) const override;
   [[nodiscard]] std::vector<Quantity> columns() const override;
   [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override;
+  [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
   [[nodiscard]] std::vector<ParticleFunctional> functionals() const override;
+  [[nodiscard]] std::vector<double> distribution(std::size_t, const SizeBins& bins) const override {
+    return ensemble_->sizeDistribution(bins.logMin, bins.logMax, bins.count);
+  }
   [[nodiscard]] double functional(std::size_t, const double* row) const override {
     return sizes().mobilityDiameter(row);
   }
@@ -48,7 +62,7 @@ class SootEnsemble final : public StochasticPopulation {
 
  private:
   std::unique_ptr<Ensemble> ensemble_;
-  std::vector<double> resampled_;
+  EnsembleExchange taken_;  // by the last takeExchange()
 };
 
 }  // namespace lampblack::particles

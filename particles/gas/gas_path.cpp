@@ -8,6 +8,7 @@
 #include "core/errors.hpp"
 
 namespace lampblack::particles {
+
 GasSample mixed(const GasSample& from, const GasSample& to, double w) {
   const auto mix = [w](double& x, double y) { x = (1 - w) * x + w * y; };
   GasSample sample = from;
@@ -21,10 +22,10 @@ GasSample mixed(const GasSample& from, const GasSample& to, double w) {
 void checkInterval(const GasSample& from, const GasSample& to, std::size_t species) {
   for (const GasSample* sample : {&from, &to})
     if (sample->concentrations.size() != species)
-      throw InputError(fmt::format("path of soot: {} species at t = {} s, {} in the model",
+      throw InputError(fmt::format("path of particles: {} species at t = {} s, {} in the model",
                                    sample->concentrations.size(), sample->time, species));
   if (!(to.time >= from.time))
-    throw InputError(fmt::format("path of soot: time falls from {} to {} s", from.time, to.time));
+    throw InputError(fmt::format("path of particles: time falls from {} to {} s", from.time, to.time));
 }
 
 std::size_t parts(const GasSample& from, const GasSample& to, const GasDivision& division) {
@@ -33,13 +34,7 @@ std::size_t parts(const GasSample& from, const GasSample& to, const GasDivision&
     const double larger = std::max(std::abs(x), std::abs(y));
     if (larger > 1e-9) most = std::max(most, std::abs(x - y) / larger / division.relativeStep);  // mol/m3
   };
-  const auto considerSpecies = [&](std::size_t k) { consider(from.concentrations[k], to.concentrations[k]); };
-  if (!division.counted.empty()) {
-    for (const std::size_t k : division.counted) considerSpecies(k);
-    return std::clamp(static_cast<std::size_t>(std::ceil(most)), std::size_t{1}, division.most);
-  }
-  for (const std::size_t k : {SootSpecies::H, SootSpecies::OH, SootSpecies::O2, SootSpecies::C2H2}) considerSpecies(k);
-  for (std::size_t k = SootSpecies::fixed; k < from.concentrations.size(); ++k) considerSpecies(k);
+  for (const std::size_t k : division.counted) consider(from.concentrations[k], to.concentrations[k]);
   return std::clamp(static_cast<std::size_t>(std::ceil(most)), std::size_t{1}, division.most);
 }
 

@@ -7,14 +7,25 @@
 #include <vector>
 
 #include "core/modules.hpp"
-#include "particles/gas/soot_gas.hpp"
+#include "core/particle_gas.hpp"
 
 namespace lampblack::particles {
 
 struct GasSample {
   double time = 0;  // s
   CarrierGas gas;
-  std::vector<double> concentrations;  // mol/m3, in the order of SootSpecies
+  std::vector<double> concentrations;  // mol/m3, of the species that the particles see
+};
+
+// When particles are where, in what gas, and how fast their velocity diverges.
+struct ParticlePath {
+  std::vector<GasSample> points;  // in the order of time
+  // Of the particles' velocity, 1/s, between a point and the next: at its two ends, linear in time.
+  struct Divergence {
+    double first = 0, last = 0;
+    [[nodiscard]] double at(double w) const { return first + w * (last - first); }
+  };
+  std::vector<Divergence> divergence;
 };
 
 // Largest change of temperature (K) and of any concentration (relative to its larger end) over one constant state:
@@ -23,7 +34,7 @@ struct GasDivision {
   double temperatureStep = 20;
   double relativeStep = 0.1;
   std::size_t most = 64;                  // parts of an interval
-  std::vector<std::size_t> counted = {};  // concentrations that are looked at; empty: those that matter of SootSpecies
+  std::vector<std::size_t> counted = {};  // concentrations that are looked at
 };
 
 // (1 - w) `from` + w `to`, at the time of `from`.

@@ -1,6 +1,8 @@
 #include "particles/stochastic/stochastic_population.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 #include <string_view>
 
 namespace lampblack::particles {
@@ -22,6 +24,19 @@ std::vector<std::size_t> placesWhere(const std::vector<ParticleFunctional>& all,
 }
 
 }  // namespace
+
+void StochasticPopulation::advanceDiverging(const ParticleGas& gas, double divergence, double dt) {
+  const double half = std::exp(-0.5 * divergence * dt);
+  dilute(half);
+  advance(gas, dt);
+  dilute(half);
+}
+
+std::vector<std::size_t> StochasticPopulation::pathSpecies() const {
+  std::vector<std::size_t> all(species().size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
 
 std::unique_ptr<StochasticPopulation::State> StochasticPopulation::save() const {
   return std::make_unique<PackedState>(pack());

@@ -62,6 +62,13 @@ class StochasticPopulation {
 
   // Over dt (s). NumericsError.
   virtual void advance(const ParticleGas& gas, double dt) = 0;
+  // The same where the particles' velocity diverges (1/s): diluted for half of it, advanced, diluted for the other half
+  // (Strang 1968).
+  virtual void advanceDiverging(const ParticleGas& gas, double divergence, double dt);
+  // Species, by their places, whose changes along a path make a difference to the particles.
+  [[nodiscard]] virtual std::vector<std::size_t> pathSpecies() const;
+  // The species, by its place, by which a coupling with a gas sees whether it changes.
+  [[nodiscard]] virtual std::size_t watchedSpecies() const { return 0; }
   // Applies deferred processes up to the present time. Has to be called before particles move and before values().
   virtual void applyDeferred() {}
   // Transferred amounts since the previous call, per m3.
@@ -70,6 +77,10 @@ class StochasticPopulation {
     std::vector<double> elements;  // kg of each element, gained by the particles: the same atoms
   };
   virtual Exchange takeExchange() = 0;
+  // What single processes did from one takeExchange() to the next, per m3; their names are the same for all materials.
+  [[nodiscard]] virtual std::vector<Quantity> processes() const { return {}; }
+  // The last of these amounts.
+  [[nodiscard]] virtual std::vector<double> amountsOfProcesses() const { return {}; }
   // kg/m3 of each element that came and went with numerical particles from unpack() to the last takeExchange(): zero in
   // the mean.
   [[nodiscard]] virtual std::vector<double> resampled() const = 0;
@@ -123,7 +134,7 @@ class StochasticPopulation {
   };
   [[nodiscard]] std::vector<Distribution> distributions() const;
   // The k-th, dN/dlog10 d (1/m3).
-  [[nodiscard]] std::vector<double> distribution(std::size_t k, const SizeBins& bins) const;
+  [[nodiscard]] virtual std::vector<double> distribution(std::size_t k, const SizeBins& bins) const;
   // The same of shares, dN/dx (1/m3) in equal bins from zero to one.
   [[nodiscard]] std::vector<Distribution> shares() const;
   [[nodiscard]] std::vector<double> shareDistribution(std::size_t k, std::size_t bins) const;
@@ -161,5 +172,8 @@ class StochasticPopulation {
 
   Kind kind_;
 };
+
+// Makes a population with the random numbers of this owner and with what is there from the beginning. InputError.
+using MakePopulation = std::function<std::unique_ptr<StochasticPopulation>(std::uint64_t owner)>;
 
 }  // namespace lampblack::particles

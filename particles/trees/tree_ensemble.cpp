@@ -132,14 +132,26 @@ void TreeEnsemble::forEachRow(const std::function<void(const double* row)>& f) c
 }
 
 StochasticPopulation::Exchange TreeEnsemble::takeExchange() {
-  const TreeExchange taken = trees_->takeExchange();
-  for (const TreeEvent& event : events_) total_.*event.number += taken.*event.number;
-  Exchange exchange{{taken.gas.begin(), taken.gas.begin() + static_cast<std::ptrdiff_t>(species().size())},
+  taken_ = trees_->takeExchange();
+  for (const TreeEvent& event : events_) total_.*event.number += taken_.*event.number;
+  Exchange exchange{{taken_.gas.begin(), taken_.gas.begin() + static_cast<std::ptrdiff_t>(species().size())},
                     std::vector<double>(elements().size(), 0.0)};
   for (std::size_t k = 0; k < species().size(); ++k)
-    for (std::size_t e = 0; e < elements().size(); ++e) exchange.elements[e] -= taken.gas[k] * perMole_[k][e];
+    for (std::size_t e = 0; e < elements().size(); ++e) exchange.elements[e] -= taken_.gas[k] * perMole_[k][e];
   for (std::size_t e = 0; e < elements().size(); ++e) gained_[e] += exchange.elements[e];
   return exchange;
+}
+
+std::vector<Quantity> TreeEnsemble::processes() const {
+  std::vector<Quantity> all;
+  for (const TreeEvent& event : events_) all.push_back({event.plural, "1/m^3", event.description});
+  return all;
+}
+
+std::vector<double> TreeEnsemble::amountsOfProcesses() const {
+  std::vector<double> all;
+  for (const TreeEvent& event : events_) all.push_back(taken_.*event.number);
+  return all;
 }
 
 std::vector<double> TreeEnsemble::resampled() const {
@@ -279,7 +291,7 @@ std::vector<std::pair<std::string, double>> TreeEnsemble::counts() const {
       {"doublings", value(c.doublings)},
       {"removals", value(c.removals)},
       {"samples_never_full", trees_->size() > 0 && !trees_->wasFull() ? 1.0 : 0.0},
-      {"splitting_steps", value(c.splitSteps)}};
+      {"split_steps", value(c.splitSteps)}};
   if (options_.material.sites() != nullptr) {
     all.emplace_back("surface_reactions", value(c.reactions));
     all.emplace_back("condensations", value(c.condensations));

@@ -33,7 +33,12 @@ class TreeEnsemble final : public StochasticPopulation {
   }
   void advance(const ParticleGas& gas, double dt) override { trees_->advance(gas, dt); }
   void applyDeferred() override { trees_->applyDeferred(); }
+  [[nodiscard]] std::size_t watchedSpecies() const override {
+    return options_.material.soot() != nullptr ? std::size_t{SootSpecies::C2H2} : 0;
+  }
   Exchange takeExchange() override;
+  [[nodiscard]] std::vector<Quantity> processes() const override;
+  [[nodiscard]] std::vector<double> amountsOfProcesses() const override;
   [[nodiscard]] std::vector<double> resampled() const override;
   // Of the precursor of a material with sites.
   [[nodiscard]] std::optional<double> rateOf(std::size_t i, const ParticleGas& gas) const override;
@@ -80,6 +85,7 @@ class TreeEnsemble final : public StochasticPopulation {
   std::vector<std::vector<double>> perMole_;  // kg of each element in a mole of each species
   std::vector<TreeUnits> elementMass_;        // of each element: kg in a unit of each component
   TreeExchange total_;                        // from the beginning
+  TreeExchange taken_;                        // by the last takeExchange()
   // kg/m3 of each element: of what was unpacked and has joined, and gained by exchange since.
   std::vector<double> before_, gained_;
 };

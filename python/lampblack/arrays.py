@@ -37,6 +37,11 @@ class Array(np.ndarray):
         return f"{self.name}, {self.unit}" if self.unit not in ("", "1") else self.name
 
 
+def of_particles(group, name):
+    """The dataset of a group that begins with the particles' material, such as soot_mean_diameter; or None."""
+    return next((group[key] for key in group if key.endswith("_" + name)), None)
+
+
 def _plain(value):
     if isinstance(value, Array):
         return np.asarray(value)

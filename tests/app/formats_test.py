@@ -99,10 +99,10 @@ def check_atoms(results: pathlib.Path) -> None:
     """As a two-way coupled run is at hand: the ensemble of a burner flame leaves with what it took from the gas."""
     with h5py.File(results, "r") as file:
         last = {name: float(column[-1]) for name, column in file["stochastic/iterations"].items()}
-    for element in ("carbon", "hydrogen"):
+    for element in "CH":
         taken, leaving = last[f"{element}_taken"], last[f"{element}_leaving"]
         assert taken > 0 and abs(leaving / taken - 1) < 0.01, f"{element}: {taken} taken, {leaving} leaves"
-    assert last["hydrogen_taken"] < 0.02 * last["carbon_taken"], "soot has less than an atom of hydrogen for four of carbon"
+    assert last["H_taken"] < 0.02 * last["C_taken"], "soot has less than an atom of hydrogen for four of carbon"
 
 
 def main(executable: str, *mpiexec: str) -> int:

@@ -98,7 +98,7 @@ def check_ensembles(program, folder: pathlib.Path) -> None:
         ("dilution_carbon", -1), ("resampled_carbon", 1)))
     assert np.allclose(np.cumsum(gained), history["soot_mass"][1:], rtol=1e-9), (gained, history["soot_mass"])
     assert np.all(rates["nucleation"][2:] > 0) and np.all(rates["oxidation_OH"][2:] > 0)
-    assert history["coagulation_events"][-1] > 100
+    assert history["soot_coagulation_events"][-1] > 100
 
 
 def check_rank_independence(programs: tuple, folder: pathlib.Path) -> None:

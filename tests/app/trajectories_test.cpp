@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <map>
+#include <memory>
 
 #include "app/flow/flow_mesh.hpp"
 #include "app/flow/flow_output.hpp"
@@ -12,7 +13,8 @@
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "coupling/given_gas.hpp"
-#include "particles/ensemble/ensemble_path.hpp"
+#include "particles/ensemble/soot_ensemble.hpp"
+#include "particles/stochastic/population_path.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/messages.hpp"
@@ -46,13 +48,27 @@ Datasets readTrajectories(const fs::path& path) {
   return all;
 }
 
+// Soot along trajectories, of PAH that the flame's mechanism has.
+MakePopulation ridersOf(const test::Flame& flame, std::uint64_t seed, std::size_t particles) {
+  EnsembleOptions options;
+  options.particles = particles;
+  options.splitTolerance = 0.05;
+  options.seed = seed;
+  options.soot.pah = {{"A2", 10, 8, 2.0e-3}};
+  return [&mechanism = flame.context.mechanism, options](std::uint64_t owner) {
+    EnsembleOptions own = options;
+    own.owner = owner;
+    return std::make_unique<SootEnsemble>(mechanism, own);
+  };
+}
+
 // More than ranks, so that a rank has several; the last leaves the domain early.
 const std::vector<Vector3> fiveStarts{{1e-3, 4.5e-3}, {2e-3, 4.2e-3}, {3e-3, 3.8e-3}, {1e-3, 3e-3}, {13.9e-3, 4e-3}};
 
 void writeTrajectories(MPI_Comm comm, const fs::path& path, std::uint64_t seed,
                        const std::vector<Vector3>& starts = fiveStarts) {
   test::Flame flame(comm, test::sootingGas);
-  flame.flowCase.seed = seed;
+  flame.flowCase.trajectories->make = ridersOf(flame, seed, 64);
   flame.flowCase.trajectories->starts = starts;
   flame.flowCase.trajectories->duration = 2e-3;
   ResultsWriter results(comm, path, {}, meshOutput(flame.mesh));
@@ -66,7 +82,8 @@ TEST(Trajectories, TwoThatStartAtOnePlaceHaveRandomNumbersOfTheirOwn) {
   if (test::worldRank() == 0) {
     const Datasets twins = readTrajectories(folder.path() / "twins.h5");
     EXPECT_EQ(twins.at("0/temperature"), twins.at("1/temperature")) << "the same path";
-    EXPECT_NE(twins.at("0/number_density"), twins.at("1/number_density")) << "but not the same random numbers";
+    EXPECT_NE(twins.at("0/soot_number_density"), twins.at("1/soot_number_density"))
+        << "but not the same random numbers";
   }
 }
 
@@ -80,7 +97,7 @@ TEST(Trajectories, TheTableOfTheGasIsThePath) {
   request.starts = {{1e-3, 4.5e-3}, {2e-3, 4.2e-3}};
   request.duration = 10e-3;
   request.gasTables = true;
-  request.particles = 6000;
+  request.make = ridersOf(flame, 1, 6000);
   ResultsWriter results(MPI_COMM_WORLD, folder.results(), {}, meshOutput(flame.mesh));
   Trajectories(flame.flowCase).run(flame.context, flame.state, flame.properties, results, &folder);
   results.close();
@@ -96,18 +113,15 @@ TEST(Trajectories, TheTableOfTheGasIsThePath) {
       EXPECT_NEAR(gas.temperature[i], all.at(name + "temperature")[i], 1e-9);
       EXPECT_NEAR(gas.pressure[i] / flame.flowCase.pressure, 1, 1e-12);
     }
-    const ParticlePath path =
-        givenPath(flame.context.mechanism, gas, sootSpecies(request.soot), GasViscosity::transport);
-    EnsembleOptions options;
-    options.particles = static_cast<std::size_t>(request.particles);
-    options.splitTolerance = request.splitTolerance;
-    options.seed = flame.flowCase.seed;
-    options.owner = id;
-    options.soot = request.soot;
-    const EnsemblePathResult again = marchPath(*makeEnsemble(options), path);
-    const double number = all.at(name + "number_density").back();
+    const auto population = request.make(id);
+    std::vector<std::string> species;
+    for (const std::size_t k : population->species()) species.push_back(flame.context.mechanism.speciesName(k));
+    const ParticlePath path = givenPath(flame.context.mechanism, gas, species, GasViscosity::transport);
+    const PathResult again = marchPath(*population, path);
+    const double number = all.at(name + "soot_number_density").back();
     ASSERT_GT(number, 0);
-    EXPECT_NEAR(again.records.back().totals.number / number, 1, 0.05) << id;
+    ASSERT_EQ(population->columns()[1].name, "soot_number_density");
+    EXPECT_NEAR(again.records.back().values[1] / number, 1, 0.05) << id;
   }
 }
 
@@ -119,7 +133,7 @@ TEST(Trajectories, OneThatLeavesAtOnceHasOneRowWithoutParticles) {
     const Datasets all = readTrajectories(folder.path() / "results.h5");
     EXPECT_EQ(all.at("0/time").size(), 41U);
     EXPECT_EQ(all.at("1/time"), std::vector<double>{0.0});
-    EXPECT_EQ(all.at("1/number_density"), std::vector<double>{0.0});
+    EXPECT_EQ(all.at("1/soot_number_density"), std::vector<double>{0.0});
     EXPECT_GT(all.at("1/temperature").at(0), 200.0);
   }
 }
@@ -248,18 +262,18 @@ TEST(Trajectories, AreTheSameBitsOnAnyNumberOfRanks) {
     writeTrajectories(MPI_COMM_SELF, folder.path() / "other_seed.h5", 8);
     const Datasets all = readTrajectories(folder.path() / "all.h5");
     const Datasets one = readTrajectories(folder.path() / "one.h5");
-    EXPECT_EQ(all.size(), 5U * 9U);
+    EXPECT_EQ(all.size(), 5U * 18U);
     EXPECT_EQ(all, one);
     // The random numbers are really the seed's.
     EXPECT_NE(one, readTrajectories(folder.path() / "other_seed.h5"));
     for (const std::string id : {"0", "1", "2", "3"}) {
       EXPECT_EQ(one.at(id + "/time").size(), 41U) << "2 ms in steps of 50 us, and the start";
-      EXPECT_EQ(one.at(id + "/number_density").front(), 0.0);
-      EXPECT_GT(one.at(id + "/number_density").back(), 0.0);
-      EXPECT_GT(one.at(id + "/mean_diameter").back(), 0.5e-9);
+      EXPECT_EQ(one.at(id + "/soot_number_density").front(), 0.0);
+      EXPECT_GT(one.at(id + "/soot_number_density").back(), 0.0);
+      EXPECT_GT(one.at(id + "/soot_mean_diameter").back(), 0.5e-9);
     }
     EXPECT_LT(one.at("4/time").size(), 41U) << "leaves the domain";
-    EXPECT_NE(one.at("0/number_density"), one.at("1/number_density"));
+    EXPECT_NE(one.at("0/soot_number_density"), one.at("1/soot_number_density"));
   }
 }
 

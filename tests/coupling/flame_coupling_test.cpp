@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 
 #include "core/modules.hpp"
+#include "particles/ensemble/soot_ensemble.hpp"
 #include "particles/models/soot_model.hpp"
 #include "tests/flow/flame/streams.hpp"
 
@@ -41,14 +43,19 @@ std::vector<FlameEnsemblePath> twoPaths(const std::vector<double>& z) {
   double value = 1;
   for (FlameEnsemblePath& path : paths) {
     const std::size_t points = path.path.path.points.size();
-    for (std::size_t k = 0; k < points; ++k) path.volumeFraction.mean.push_back(1e-8 * (value += 0.3));
+    path.material = "soot";
+    path.columns = {{"soot_number_density", "1/m^3", "of no use here"}, {"soot_volume_fraction", "1", "of use"}};
+    path.values.resize(2);
+    path.values[0].mean.assign(points, 1e12);
+    for (std::size_t k = 0; k < points; ++k) path.values[1].mean.push_back(1e-8 * (value += 0.3));
     for (std::size_t k = 0; k + 1 < points; ++k) {
-      EnsembleExchange x;
+      PathExchange x;
+      x.gas.resize(SootSpecies::fixed + 1);
       x.gas[SootSpecies::C2H2] = -1e-3 * (value += 0.7);
       x.gas[SootSpecies::OH] = -2e-5 * value;
       x.gas[SootSpecies::fixed] = -3e-5 * value;
-      x.carbon = 2e-5 * (value += 0.1);
-      x.hydrogen = 1e-6 * value;
+      x.elements = {2e-5 * (value + 0.1), 1e-6 * (value + 0.1)};
+      value += 0.1;
       path.exchange.push_back(x);
     }
   }
@@ -62,17 +69,17 @@ TEST(FlameCoupling, TheGasOfAFlameGivesWhatParticlesTakeAlongTheirPaths) {
   for (std::size_t i = 0; i < profile.points(); ++i)
     profile.at(i, FlameLayout::temperature) = 1000 + 100 * static_cast<double>(i);
   const auto paths = twoPaths(profile.z);
-  SootModelOptions soot;
-  soot.pah = {{"A2", 10, 8, 2e-3}};
-  const FlameExchange exchange = exchangeOf(abf(), soot, profile, paths);
+  EnsembleOptions options;
+  options.soot.pah = {{"A2", 10, 8, 2e-3}};
+  const FlameExchange exchange = exchangeOf(abf(), SootEnsemble(abf(), options), profile, paths);
 
   double carbon = 0, hydrogen = 0, acetylene = 0, hydroxyl = 0, naphthalene = 0;
   for (const FlameEnsemblePath& path : paths)
     for (std::size_t k = 0; k < path.exchange.size(); ++k) {
       const auto &from = path.path.path.points[k], &to = path.path.path.points[k + 1];
       const double part = std::abs(path.path.z[k + 1] - path.path.z[k]) / (to.time - from.time);
-      carbon += part * path.exchange[k].carbon;
-      hydrogen += part * path.exchange[k].hydrogen;
+      carbon += part * path.exchange[k].elements[0];
+      hydrogen += part * path.exchange[k].elements[1];
       acetylene +=
           part * path.exchange[k].gas[SootSpecies::C2H2] * abf().molecularWeights()[abf().speciesIndex("C2H2")];
       hydroxyl += part * path.exchange[k].gas[SootSpecies::OH] * abf().molecularWeights()[abf().speciesIndex("OH")];
@@ -90,14 +97,14 @@ TEST(FlameCoupling, TheGasOfAFlameGivesWhatParticlesTakeAlongTheirPaths) {
     return integral(
         [&, k = abf().speciesIndex(name)](std::size_t i) { return exchange.species[i * abf().numSpecies() + k]; });
   };
-  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.carbon[i]; }) / carbon, 1, 1e-12);
-  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.hydrogen[i]; }) / hydrogen, 1, 1e-12);
+  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.elements[2 * i]; }) / carbon, 1, 1e-12);
+  EXPECT_NEAR(integral([&](std::size_t i) { return exchange.elements[2 * i + 1]; }) / hydrogen, 1, 1e-12);
   EXPECT_NEAR(ofSpecies("C2H2") / acetylene, 1, 1e-12);
   EXPECT_NEAR(ofSpecies("OH") / hydroxyl, 1, 1e-12);
   EXPECT_NEAR(ofSpecies("A2") / naphthalene, 1, 1e-12);
 
   // Absorption is 700 f_v T (1/m): of both populations where both are.
-  const auto fractionAt = [&](std::size_t path, std::size_t k) { return paths[path].volumeFraction.mean[k]; };
+  const auto fractionAt = [&](std::size_t path, std::size_t k) { return paths[path].values[1].mean[k]; };
   EXPECT_NEAR(exchange.absorption[1] / (700 * fractionAt(0, 1) * 1100), 1, 1e-12);
   EXPECT_NEAR(exchange.absorption[5] / (700 * (fractionAt(0, 5) + fractionAt(1, 0)) * 1500), 1, 1e-12);
 }
@@ -148,7 +155,7 @@ TEST(FlameCoupling, TheTransferModelTakesWhatItNamesAtEachPoint) {
   const std::size_t n = abf().numSpecies(), H2 = abf().speciesIndex("H2"), C2H2 = abf().speciesIndex("C2H2");
   FlameProfile profile{{n, 2}, {0, 1e-3}, {}};
   profile.x.assign(profile.size(), 0.0);
-  FlameSootGas gas;
+  GasOfFlame gas;
   gas.carrier.resize(2);
   for (std::size_t i = 0; i < 2; ++i) {
     profile.at(i, FlameLayout::firstSpecies + H2) = 0.1 + 0.1 * static_cast<double>(i);
@@ -159,7 +166,7 @@ TEST(FlameCoupling, TheTransferModelTakesWhatItNamesAtEachPoint) {
     gas.carrier[i].temperature = 1500.0;
   }
   Taking model;
-  const FlameExchange e = exchangeOfTransfer(abf(), model, profile, gas);
+  const FlameExchange e = exchangeOfTransfer(abf(), model, std::array<std::string, 2>{"H", "C"}, profile, gas);
   EXPECT_NEAR(e.species[H2] / (11.0 * 0.25 * 0.1), 1.0, 1e-12);
   EXPECT_NEAR(e.species[n + H2] / (11.0 * 0.25 * 0.2), 1.0, 1e-12);
   EXPECT_NEAR(e.species[n + C2H2] / (-13.0 * 0.25 * 0.4), 1.0, 1e-12);
@@ -168,8 +175,9 @@ TEST(FlameCoupling, TheTransferModelTakesWhatItNamesAtEachPoint) {
     EXPECT_EQ(e.species[k], expected) << k;
   }
   const double first = 6.0 * 1e-3 * 0.25, second = 8.0 * 2e-3 * 0.25;  // densities, per m3
-  EXPECT_NEAR(e.carbon[1] / (2.0 * first * 3.0 + 5.0 * second * 7.0), 1.0, 1e-12);
-  EXPECT_NEAR(e.hydrogen[1] / (2.0 * first * 0.5), 1.0, 1e-12);
+  ASSERT_EQ(e.elements.size(), 4U);
+  EXPECT_NEAR(e.elements[3] / (2.0 * first * 3.0 + 5.0 * second * 7.0), 1.0, 1e-12);
+  EXPECT_NEAR(e.elements[2] / (2.0 * first * 0.5), 1.0, 1e-12);
   EXPECT_NEAR(e.absorption[1] / (1500.0 * (first + 2.0 * second)), 1.0, 1e-12);
 }
 
@@ -186,18 +194,20 @@ TEST(FlameCoupling, TheGasIsGivenThePopulationLessTheTransferModel) {
   old.species[n + k] = 12;
   old.absorption = {3, 9};
   old.enthalpy = {300, 600};
-  FlameExchange population(profile.z, n), transfer(profile.z, n);
+  FlameExchange population(profile.z, n, 2), transfer(profile.z, n, 2);
   for (std::size_t i = 0; i < 3; ++i) {
     population.species[i * n + k] = 5;
     transfer.species[i * n + k] = 2;
     population.absorption[i] = 7;
     transfer.absorption[i] = 1;
-    population.carbon[i] = 4e-3;
-    transfer.carbon[i] = 1e-3;
-    population.hydrogen[i] = 5e-4;
-    transfer.hydrogen[i] = 3e-4;
+    population.elements[2 * i] = 4e-3;
+    transfer.elements[2 * i] = 1e-3;
+    population.elements[2 * i + 1] = 5e-4;
+    transfer.elements[2 * i + 1] = 3e-4;
   }
-  const GivenExchange given = relaxed(old, profile, population, transfer, 1.0 / 3);
+  const GivenExchange given =
+      relaxed(old, profile, std::array<ElementEnthalpy, 2>{sootCarbonEnthalpy, sootHydrogenEnthalpy}, population,
+              transfer, 1.0 / 3);
   EXPECT_EQ(given.z, profile.z);
   ASSERT_EQ(given.species.size(), 3 * n);
   EXPECT_NEAR(given.species[n + k], 2.0 / 3 * 9 + 1, 1e-12);

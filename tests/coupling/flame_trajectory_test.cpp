@@ -16,8 +16,8 @@ namespace {
 
 constexpr double coefficient = 0.55;
 
-FlameSootGas plainGas(std::size_t points, double length) {
-  FlameSootGas gas;
+GasOfFlame plainGas(std::size_t points, double length) {
+  GasOfFlame gas;
   for (std::size_t i = 0; i < points; ++i)
     gas.z.push_back(length * static_cast<double>(i) / static_cast<double>(points - 1));
   gas.carrier.resize(points);
@@ -38,7 +38,7 @@ double kept(const ParticlePath& path) {
 }
 
 TEST(FlamePath, WithoutSpreadingTheFluxOfParticlesIsConstant) {
-  FlameSootGas gas = plainGas(23, 0.02);
+  GasOfFlame gas = plainGas(23, 0.02);
   for (std::size_t i = 0; i < 23; ++i) {
     gas.velocity[i] = 0.1 + 20 * gas.z[i] * (1 + 30 * gas.z[i]);
     gas.thermophoresis[i] = 0.02 * std::sin(200 * gas.z[i]);
@@ -54,7 +54,7 @@ TEST(FlamePath, WithoutSpreadingTheFluxOfParticlesIsConstant) {
 TEST(FlamePath, EndsNearTheParticlesStagnationPlane) {
   const double a = 100, zs = 0.008, c = 0.1;
   for (const bool fromRight : {false, true}) {
-    FlameSootGas gas = plainGas(41, 0.02);
+    GasOfFlame gas = plainGas(41, 0.02);
     for (std::size_t i = 0; i < 41; ++i) {
       gas.velocity[i] = 2 * a * (zs - gas.z[i]);
       gas.thermophoresis[i] = c;
@@ -73,7 +73,7 @@ TEST(FlamePath, EndsNearTheParticlesStagnationPlane) {
 }
 
 TEST(FlamePath, StartsWhereItIsTold) {
-  FlameSootGas gas = plainGas(11, 0.01);
+  GasOfFlame gas = plainGas(11, 0.01);
   gas.velocity.assign(11, 0.3);
   FlamePathOptions options;
   options.start = 0.0045;
@@ -132,7 +132,7 @@ double difference(std::size_t points) {
   EXPECT_GT(solution.scalarChange, 0) << "values of scalars between points follow the profile";
   EXPECT_LE(solution.scalarChange, solver.scalarChange);
   EXPECT_EQ(profile.points(), points);
-  const FlameSootGas gas = flameSootGas(profile, *hydrogenMechanism(), problem.pressure, {}, coefficient);
+  const GasOfFlame gas = flameGasOf(sootSpecies({}), profile, *hydrogenMechanism(), problem.pressure, coefficient);
   double worst = 0, largest = 0;
   for (const bool fromRight : {false, true}) {
     FlamePathOptions options;

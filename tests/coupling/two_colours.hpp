@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -25,6 +26,17 @@ class TwoColours final : public StochasticPopulation {
     double colour = red;
   };
   static constexpr double density = 1800.0;
+
+  // Four red and eight blue.
+  static constexpr double carbonAtStart = 1e-20, eachNumber = 2e15;
+  [[nodiscard]] static std::vector<Particle> someParticles() {
+    std::vector<Particle> all;
+    for (int k = 0; k < 12; ++k) all.push_back({carbonAtStart, eachNumber, k < 4 ? red : blue});
+    return all;
+  }
+  [[nodiscard]] static std::unique_ptr<TwoColours> some(const Mechanism& mechanism, double uptake) {
+    return std::make_unique<TwoColours>(mechanism, uptake, someParticles());
+  }
 
   // A red particle takes up `uptake` (m3/s) times the concentration of acetylene, a blue one a third of it.
   TwoColours(const Mechanism& mechanism, double uptake, std::vector<Particle> start = {})

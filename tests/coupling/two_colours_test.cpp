@@ -14,13 +14,7 @@
 namespace lampblack::test {
 namespace {
 
-constexpr double uptakeOfRed = 1e-14, carbonAtStart = 1e-20, eachNumber = 2e15;
-
-std::vector<TwoColours::Particle> someParticles() {
-  std::vector<TwoColours::Particle> all;
-  for (int k = 0; k < 12; ++k) all.push_back({carbonAtStart, eachNumber, k < 4 ? TwoColours::red : TwoColours::blue});
-  return all;
-}
+constexpr double uptakeOfRed = 1e-14, carbonAtStart = TwoColours::carbonAtStart, eachNumber = TwoColours::eachNumber;
 
 // Acetylene in cold nitrogen, which does not react.
 TEST(TwoColours, InAReactorTakeUpWhatTheirLawSays) {
@@ -30,7 +24,7 @@ TEST(TwoColours, InAReactorTakeUpWhatTheirLawSays) {
   gas.temperature = 500.0;
   gas.pressure = constants::oneAtmosphere;
   gas.Y = ethylene().massFractions("N2: 0.998, C2H2: 0.002");
-  ReactorPopulation particles(std::make_unique<TwoColours>(mechanism, uptakeOfRed, someParticles()));
+  ReactorPopulation particles(TwoColours::some(mechanism, uptakeOfRed));
   ParticlesAtRest atRest(1, particles.elements());
   ClosedReactor reactor(mechanism, gas, ReactorSystem::Held::Density, TemperatureProfile(500.0), &atRest);
   SplitReactor::Gas own = splitGas(reactor, ReactorSystem::Held::Density);
@@ -90,9 +84,9 @@ struct Painted : CellVessel {
                    {}) {
     for (int c = 0; c < box.mesh.owned; ++c)
       if (box.mesh.centre[at(c)][0] < 0.002)
-        ensembles.initialise(
-            state, c,
-            TwoColours::packed(someParticles(), packedOwner(static_cast<std::uint64_t>(box.mesh.naturalCell[at(c)]))));
+        ensembles.initialise(state, c,
+                             TwoColours::packed(TwoColours::someParticles(),
+                                                packedOwner(static_cast<std::uint64_t>(box.mesh.naturalCell[at(c)]))));
   }
   // Of one colour, and those beyond the middle.
   [[nodiscard]] double numberOf(double colour, double beyond = 0.0) const {

@@ -60,7 +60,7 @@ def synthetic_results(folder, with_fields=True):
         mean = 2e-9 + 1e-6 * times
         write(path, "time", times, "s")
         write(path, "temperature", 1500 + 0 * times, "K")
-        write(path, "mean_diameter", mean, "m")
+        write(path, "soot_mean_diameter", mean, "m")
         write(path, "bin_edges", edges, "m")
         write(path, "size_distribution", 1e15 * np.exp(-(np.log(middle / mean[:, None]) ** 2)), "1/m^3")
         history = file.create_group("history")

@@ -3,6 +3,7 @@ several flames in one picture."""
 
 import numpy as np
 
+from ..arrays import of_particles
 from ..results import Results, text_of
 from .style import plt, scaled_fraction
 
@@ -31,7 +32,7 @@ class FlameData:
         self.soot = {name: soot[name][()] for name in soot if hasattr(soot[name], "shape")}
         self.processes = {name: soot["processes"][name][()] for name in soot.get("processes", {})}
         ensembles = results.file.get("stochastic", {})
-        self.paths = [{name: path[name][()] for name in ("z", "volume_fraction", "number_density")}
+        self.paths = [{"z": path["z"][()], **{name: of_particles(path, name)[()] for name in ("volume_fraction", "number_density")}}
                       for path in ensembles.values() if hasattr(path, "keys") and "z" in path]
 
     def span(self):

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from ..arrays import of_particles
 from .style import plt
 
 MOST_TRAJECTORIES = 6
@@ -31,8 +32,9 @@ def _distribution(axes, group):
 def _path(axes, group):
     times = group["time"][()] * 1e3
     handles = []
-    if "mean_diameter" in group:
-        handles += axes.plot(times, group["mean_diameter"][()] * 1e9, color="tab:blue", label="mean diameter, nm")
+    diameter = of_particles(group, "mean_diameter")
+    if diameter is not None:
+        handles += axes.plot(times, diameter[()] * 1e9, color="tab:blue", label="mean diameter, nm")
         axes.set_ylabel("mean diameter, nm", color="tab:blue")
     if "temperature" in group:
         other = axes.twinx()

@@ -1,18 +1,35 @@
-// Stochastic soot along a path through a known gas.
-#include "particles/ensemble/ensemble_path.hpp"
+// A stochastic population along a path through a known gas.
+#include "particles/stochastic/population_path.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
+#include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/ensemble/soot_ensemble.hpp"
 #include "particles/soot/surface_chemistry.hpp"
 #include "tests/particles/soot_fixtures.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack::particles {
 namespace {
+
+SootEnsemble sootOf(const EnsembleOptions& options) {
+  static const Mechanism mechanism =
+      Mechanism::fromFile(test::sourcePath("cases/mechanisms/ethylene_abf2000_101.yaml"));
+  return {mechanism, options};
+}
+
+// Of a column, by its name without the material.
+double valueOf(const PathRecord& record, const std::string& name) {
+  const auto columns = sootOf({}).columns();
+  const auto found = std::ranges::find(columns, "soot_" + name, &Quantity::name);
+  return record.values.at(static_cast<std::size_t>(found - columns.begin()));
+}
 
 GasSample sampleAt(double time, const test::FlameGas& gas) {
   return {time, gas.state, gas.concentrations};
@@ -24,14 +41,14 @@ TEST(ParticlePath, OxidationIntegratesTheGasInTime) {
   const test::FlameGas cold(1800, 0, 0, 1e-3, 0.1, 0, 0, {}), rich(1800, 0, 0, 3e-3, 0.1, 0, 0, {});
   EnsembleOptions options;
   options.soot.coagulation = false;
-  const auto soot = makeEnsemble(options);
+  SootEnsemble soot = sootOf(options);
   const double d0 = 60e-9, mass = 1850 * constants::pi / 6 * d0 * d0 * d0, T = 1e-3;
-  soot->initialise(test::equalSpheres(1, mass, 0, 1e15));
-  const auto result = marchPath(*soot, {{sampleAt(0, cold), sampleAt(0.3 * T, cold), sampleAt(T, rich)}, {{}, {}}});
+  soot.ensemble().initialise(test::equalSpheres(1, mass, 0, 1e15));
+  const auto result = marchPath(soot, {{sampleAt(0, cold), sampleAt(0.3 * T, cold), sampleAt(T, rich)}, {{}, {}}});
   const double perOH = 12.011e-3 * SurfaceChemistry(options.soot, 1800).rates(cold.concentrations, 0.0).oxidationOH;
   const double dose = cold[SootSpecies::OH] * 0.3 * T + 0.5 * (cold[SootSpecies::OH] + rich[SootSpecies::OH]) * 0.7 * T;
   ASSERT_EQ(result.records.size(), 3U);
-  EXPECT_NEAR(result.records[2].totals.meanDiameter() / (d0 - 2 * perOH * dose / 1850), 1, 1e-10);
+  EXPECT_NEAR(valueOf(result.records[2], "mobility_diameter") / (d0 - 2 * perOH * dose / 1850), 1, 1e-10);
 }
 
 // Particles form at the start, where the gas does not yet spread, and are thinned by what follows. One interval over
@@ -49,7 +66,8 @@ TEST(ParticlePath, DivergenceGrowsWithTheTimeOfItsInterval) {
       path.points.push_back(sampleAt(w * T, gasAt(w)));
       if (k > 0) path.divergence.push_back({4 / T * (w - 1.0 / intervals), 4 / T * w});
     }
-    return marchPath(*makeEnsemble(options), path).records.back().totals.number;
+    SootEnsemble soot = sootOf(options);
+    return valueOf(marchPath(soot, path).records.back(), "number_density");
   };
   // Both are the same but for what a part of the one long interval holds constant, and one nucleus in 2000. The mean
   // divergence all along gives a fifth less, the ends exchanged half.
@@ -64,43 +82,50 @@ TEST(ParticlePath, RecordsHoldDensitiesAndDistributions) {
   ParticlePath path;
   for (int k = 0; k < 4; ++k) path.points.push_back(sampleAt(1e-4 * k, gas));
   path.divergence.assign(3, {10, 10});
-  const auto soot = makeEnsemble(options);
+  SootEnsemble soot = sootOf(options);
   const SizeBins bins;
-  const auto records = marchPath(*soot, path, {bins}).records;
-  EXPECT_EQ(records[0].totals.number, 0);
-  EXPECT_EQ(records[0].geometricDeviation, 1);
+  const auto records = marchPath(soot, path, {bins}).records;
+  EXPECT_EQ(valueOf(records[0], "number_density"), 0);
+  EXPECT_EQ(valueOf(records[0], "geometric_deviation"), 1);
   const auto& end = records.back();
-  EXPECT_EQ(end.totals.number, soot->totals().number);
-  EXPECT_GT(end.volumeFraction, records[1].volumeFraction);
-  EXPECT_NEAR(std::accumulate(end.distribution.begin(), end.distribution.end(), 0.0) * 0.05 / end.totals.number, 1,
-              1e-9);
+  const Ensemble::Totals totals = soot.ensemble().totals();
+  EXPECT_EQ(valueOf(end, "number_density"), totals.number);
+  EXPECT_EQ(valueOf(end, "mass"), totals.mass());
+  EXPECT_EQ(valueOf(end, "mass_squared"), 1850.0 * 1850.0 * soot.ensemble().moment(2));
+  EXPECT_EQ(valueOf(end, "mass_cubed"), 1850.0 * 1850.0 * 1850.0 * soot.ensemble().moment(3));
+  EXPECT_EQ(valueOf(end, "coagulation_events"), static_cast<double>(soot.ensemble().counters().coagulations));
+  EXPECT_GT(valueOf(end, "coagulation_events"), 0);
+  EXPECT_EQ(valueOf(end, "primaries"), 1.0) << "of spheres";
+  EXPECT_GT(valueOf(end, "volume_fraction"), valueOf(records[1], "volume_fraction"));
+  EXPECT_NEAR(std::accumulate(end.distribution.begin(), end.distribution.end(), 0.0) * 0.05 / totals.number, 1, 1e-9);
   ASSERT_EQ(bins.edges().size(), end.distribution.size() + 1);
   EXPECT_NEAR(bins.edges().front() / 1e-10, std::pow(10.0, 0.8), 1e-9);
   EXPECT_NEAR(bins.edges().back() / 1e-7, std::pow(10.0, 0.8), 1e-9);
 
-  EXPECT_EQ(marchPath(*makeEnsemble(options), path).records.back().volumeFraction, end.volumeFraction);
+  SootEnsemble again = sootOf(options);
+  EXPECT_EQ(marchPath(again, path).records.back().values, end.values);
 }
 
 TEST(ParticlePath, MeaninglessPathsAreRefused) {
   const test::FlameGas gas(1700, 0, 0, 0, 0, 0, 0, {1e-6});
   EnsembleOptions options;
   options.soot = test::naphthalene();
-  const auto soot = makeEnsemble(options);
-  EXPECT_THROW((void)marchPath(*soot, {}), InputError);
-  EXPECT_THROW((void)marchPath(*soot, {{sampleAt(0, gas), sampleAt(1, gas)}, {}}), InputError);
-  EXPECT_THROW((void)marchPath(*soot, {{sampleAt(1, gas), sampleAt(0, gas)}, {{}}}), InputError);
+  SootEnsemble soot = sootOf(options);
+  EXPECT_THROW((void)marchPath(soot, {}), InputError);
+  EXPECT_THROW((void)marchPath(soot, {{sampleAt(0, gas), sampleAt(1, gas)}, {}}), InputError);
+  EXPECT_THROW((void)marchPath(soot, {{sampleAt(1, gas), sampleAt(0, gas)}, {{}}}), InputError);
   GasSample wrong = sampleAt(1, gas);
   wrong.concentrations.pop_back();
-  EXPECT_THROW((void)marchPath(*soot, {{sampleAt(0, gas), wrong}, {{}}}), InputError);
+  EXPECT_THROW((void)marchPath(soot, {{sampleAt(0, gas), wrong}, {{}}}), InputError);
 }
 
 TEST(ParticlePath, OnePointIsARowOfThePopulationAsItIs) {
   EnsembleOptions options;
   options.soot = test::naphthalene();
-  const auto result =
-      marchPath(*makeEnsemble(options), {{sampleAt(0, test::FlameGas(1700, 0, 0, 0, 0, 0, 0, {1e-6}))}, {}});
+  SootEnsemble soot = sootOf(options);
+  const auto result = marchPath(soot, {{sampleAt(0, test::FlameGas(1700, 0, 0, 0, 0, 0, 0, {1e-6}))}, {}});
   ASSERT_EQ(result.records.size(), 1U);
-  EXPECT_EQ(result.records.front().volumeFraction, 0.0);
+  EXPECT_EQ(valueOf(result.records.front(), "volume_fraction"), 0.0);
 }
 
 }  // namespace
