@@ -38,6 +38,10 @@ stochastic: {{particles: 50, repeats: 2, heights: [5 mm], bins: 5, coupling: two
 unsteady: {{end: 0.01 ms, output_interval: 0.01 ms, first_step: 1 us}}
 """
 
+# The same with trees of primaries in place of the ensemble.
+SOOT_TREES = re.sub("stochastic:.*\nunsteady:.*\n", "stochastic: {coupling: two_way, iterations: 2, tolerance: 1}\n"
+                    "particles: {material: soot, number: 256, repeats: 2, expected_number: 1e18 1/m^3, bins: 5}\n", SOOT)
+
 POPULATION = """problem: population_balance
 initial: {distribution: exponential, number: 1e6 1/cm^3, diameter: 10 nm}
 processes: {coagulation: {kernel: constant, rate: 1e-6 cm^3/s}}
@@ -138,7 +142,7 @@ def main(executable: str, *mpiexec: str) -> int:
             "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={particles: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
             "stochastic.statistics={start: 10 us, block: 2 us}",
             "stochastic.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
-        for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (POPULATION, "population")):
+        for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (SOOT_TREES, "flame_trees"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)
         runs["ignition"] = (CASES / "reactor/ignition_hydrogen/deck.yaml",)
@@ -177,6 +181,7 @@ def main(executable: str, *mpiexec: str) -> int:
 
         running.at_once(compute, runs)
         check_atoms(folder / "soot/results.h5")
+        check_atoms(folder / "flame_trees/results.h5")
         for run in runs:
             for path, unit in written(folder / run / "results.h5").items():
                 if re.search("[a-z][0-9]", unit):
