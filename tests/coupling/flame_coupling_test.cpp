@@ -200,11 +200,12 @@ TEST(FlameCoupling, TheGasIsGivenThePopulationLessTheTransferModel) {
     transfer.species[i * n + k] = 2;
     population.absorption[i] = 7;
     transfer.absorption[i] = 1;
-    population.elements[2 * i] = 4e-3;
-    transfer.elements[2 * i] = 1e-3;
-    population.elements[2 * i + 1] = 5e-4;
-    transfer.elements[2 * i + 1] = 3e-4;
   }
+  // Of the point in the middle alone.
+  population.elements[2] = 4e-3;
+  transfer.elements[2] = 1e-3;
+  population.elements[3] = 5e-4;
+  transfer.elements[3] = 3e-4;
   const GivenExchange given =
       relaxed(old, profile, std::array<ElementEnthalpy, 2>{sootCarbonEnthalpy, sootHydrogenEnthalpy}, population,
               transfer, 1.0 / 3);
@@ -216,6 +217,8 @@ TEST(FlameCoupling, TheGasIsGivenThePopulationLessTheTransferModel) {
   const double toSoot = 3e-3 * sootCarbonEnthalpy(1500).first + 2e-4 * sootHydrogenEnthalpy(1500).first;
   ASSERT_GT(2e-4 * sootHydrogenEnthalpy(1500).first, 100);
   EXPECT_NEAR(given.enthalpy[1], 2.0 / 3 * 450 - toSoot / 3, 1e-9);
+  EXPECT_NEAR(given.enthalpy[0], 2.0 / 3 * 300, 1e-9);
+  EXPECT_NEAR(given.enthalpy[2], 2.0 / 3 * 600, 1e-9);
 }
 
 }  // namespace

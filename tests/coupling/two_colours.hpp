@@ -9,6 +9,8 @@
 #include <memory>
 #include <numeric>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "core/constants.hpp"
@@ -105,15 +107,24 @@ class TwoColours final : public StochasticPopulation {
   }
 
   [[nodiscard]] std::vector<Quantity> columns() const override {
-    return {{"paint_volume_fraction", "1", "volume"}, {"paint_number_density", "1/m^3", "number"}};
+    return {{"paint_volume_fraction", "1", "volume"},
+            {"paint_number_density", "1/m^3", "number"},
+            {"paint_mean_diameter", "m", "of the sphere of mean volume"},
+            {"paint_uptake", "mol/m^3/s", "of acetylene"}};
   }
-  [[nodiscard]] std::vector<double> values(const ParticleGas&) const override {
-    double number = 0.0, mass = 0.0;
+  [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override {
+    double number = 0.0, mass = 0.0, all = 0.0;
     for (const Particle& p : particles_) {
       number += p.number;
       mass += p.number * p.carbon;
+      all += p.number * uptakeOf(p);
     }
-    return {mass / density, number};
+    return {mass / density, number, number > 0.0 ? diameterOf(mass / number) : 0.0, gas.concentrations[0] * all};
+  }
+  [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override {
+    double number = 0.0;
+    for (const Particle& p : particles_) number += p.number;
+    return {{"particles_in_a_cubic_centimetre", 1e-6 * number}};
   }
   [[nodiscard]] std::vector<ParticleFunctional> functionals() const override {
     using Use = ParticleFunctional::Use;

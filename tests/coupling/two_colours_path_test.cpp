@@ -56,6 +56,8 @@ TEST(TwoColoursOnAPath, TakeUpTheGasOfTheirWayAndSpread) {
                carbon = TwoColours::carbonAtStart + perMole() * uptakeOfRed * dose * (4.0 + 8.0 / 3.0) / 12.0;
   EXPECT_NEAR(result.records[2].values[1] / number, 1.0, 1e-12);
   EXPECT_NEAR(result.records[2].values[0] / (number * carbon / TwoColours::density), 1.0, 1e-12);
+  // Rates are those in the gas of the record.
+  EXPECT_NEAR(result.records[2].values[3] / (number * uptakeOfRed * (4.0 + 8.0 / 3.0) / 12.0 * lastAmount), 1.0, 1e-12);
   ASSERT_EQ(result.content.size(), 1U);
   EXPECT_NEAR(result.content[0] / (number * carbon), 1.0, 1e-12);
   // An interval's exchange is that of it alone, with the hydrogen that goes back: of second order in its parts.
@@ -89,6 +91,7 @@ TEST(TwoColoursOnAPath, AreRepeatedOverTheRanks) {
     ASSERT_EQ(number.mean.size(), 3U);
     EXPECT_NEAR(number.mean[0] / (1.6 * 12.0 * TwoColours::eachNumber), 1.0, 1e-12);
     EXPECT_NEAR(number.error[0] / (0.1 / std::sqrt(3.0) * 12.0 * TwoColours::eachNumber), 1.0, 1e-12);
+    EXPECT_NEAR(paths.count("particles_in_a_cubic_centimetre") / (3e-6 * number.mean[2]), 1.0, 1e-12);
     ASSERT_EQ(paths.exchange.size(), 2U);
     EXPECT_NEAR(paths.exchangeError[1].gas[0] / (-paths.exchange[1].gas[0] / 16.0 / std::sqrt(3.0)), 1.0, 1e-9);
     EXPECT_NEAR(paths.exchange[1].elements[0] / (-perMole() * paths.exchange[1].gas[0]), 1.0, 1e-12);

@@ -106,6 +106,24 @@ TEST(ParticlePath, RecordsHoldDensitiesAndDistributions) {
   EXPECT_EQ(marchPath(again, path).records.back().values, end.values);
 }
 
+// A concentration that doubles divides an interval into five where it makes a difference to soot: H, OH, O2, C2H2, PAH.
+TEST(ParticlePath, IsDividedByTheSpeciesThatMatter) {
+  EnsembleOptions options;
+  options.soot = test::jumpsOnly(false, false);
+  for (std::size_t k = 0; k < SootSpecies::fixed + options.soot.pah.size(); ++k) {
+    GasSample from = sampleAt(0, test::FlameGas(1700, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3, {1e-6, 1e-6, 1e-6}));
+    GasSample to = from;
+    to.time = 1e-4;
+    from.concentrations[SootSpecies::CO] = to.concentrations[SootSpecies::CO] = 1e-3;
+    to.concentrations[k] *= 2;
+    SootEnsemble soot = sootOf(options);
+    soot.ensemble().initialise(test::equalSpheres(8, 1e-21, 0, 1e15));
+    (void)marchPath(soot, {{from, to}, {{}}});
+    const bool matters = k != SootSpecies::H2 && k != SootSpecies::H2O && k != SootSpecies::CO;
+    EXPECT_EQ(soot.ensemble().counters().splitSteps, matters ? 5U : 1U) << k;
+  }
+}
+
 TEST(ParticlePath, MeaninglessPathsAreRefused) {
   const test::FlameGas gas(1700, 0, 0, 0, 0, 0, 0, {1e-6});
   EnsembleOptions options;
