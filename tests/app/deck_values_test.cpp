@@ -6,6 +6,7 @@
 #include "app/reactor/reactor_case.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/modules.hpp"
+#include "particles/ensemble/soot_ensemble.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/scratch.hpp"
 
@@ -67,16 +68,19 @@ TEST(DeckValues, OfAFlow) {
   EXPECT_FALSE(flow.chemistry.shareWork);
   EXPECT_EQ(flow.chemistry.reactor.relativeTolerance, 1e-5);
   EXPECT_EQ(flow.chemistry.reactor.absoluteTolerance, 1e-11);
-  for (const SootModelOptions* soot : {&test::dimerOptions(flow), &flow.trajectories->soot}) {
+  const TrajectoryRequest& paths = *flow.trajectories;
+  const auto traveller = paths.make(0);
+  const EnsembleOptions& travelling = dynamic_cast<const SootEnsemble&>(*traveller).ensemble().options();
+  for (const SootModelOptions* soot : {&test::dimerOptions(flow), &travelling.soot}) {
     EXPECT_EQ(soot->sootDensity, 1700);
     EXPECT_EQ(soot->alpha, 0.4);
     EXPECT_EQ(soot->ohEfficiency, 0.1);
     EXPECT_EQ(soot->vanDerWaals, 1.5);
   }
-  const TrajectoryRequest& paths = *flow.trajectories;
   EXPECT_DOUBLE_EQ(paths.duration, 2e-3);
   EXPECT_DOUBLE_EQ(paths.timeStep, 20e-6);
-  EXPECT_EQ(paths.particles, 128);
+  EXPECT_EQ(travelling.particles, 128U);
+  EXPECT_EQ(travelling.seed, flow.seed);
   EXPECT_EQ(paths.bins.count, 30U);
   EXPECT_DOUBLE_EQ(paths.bins.logMin, -9.0);
   EXPECT_DOUBLE_EQ(paths.bins.logMax, -7.0);

@@ -6,6 +6,7 @@
 #include "app/prescribed_gas/prescribed_gas_case.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/ensemble/soot_ensemble.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
@@ -97,7 +98,8 @@ TEST(PrescribedGasCase, TheShippedDeckHasItsRows) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR(times[i], expected[i], 1e-15);
   EXPECT_EQ(along.recorded.back() + 1, along.path.points.size());
   ASSERT_TRUE(along.ensemble);
-  const SootModelOptions& soot = along.ensemble->soot.soot;
+  const auto population = along.ensemble->make(0);
+  const SootModelOptions& soot = dynamic_cast<const SootEnsemble&>(*population).ensemble().options().soot;
   EXPECT_EQ(soot.inceptionBy, InceptionBy::monomers);
   EXPECT_NEAR(soot.monomerMass, 3.2e-25, 1e-39);
   EXPECT_NEAR(soot.monomerDiameter, 7.11e-10, 1e-22);
