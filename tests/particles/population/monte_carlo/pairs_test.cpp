@@ -187,6 +187,32 @@ TEST(PairMerging, MergesTheNearestAndKeepsNumberAndMass) {
   EXPECT_NEAR(population.volume(0), mass / number, 1e-13);
 }
 
+// Pairs far from one another, of which each loses four times as much as the next or all the same: as many are merged as
+// are too many, those first that lose least.
+TEST(PairMerging, MergesAsManyAsAreTooManyWhateverTheyLose) {
+  const auto kernel = *colliding(constant, 1).coagulation;
+  constexpr int pairs = 12;
+  for (const bool isAlike : {false, true})
+    for (int merged = 1; merged <= pairs; ++merged) {
+      std::vector<std::pair<double, double>> all;
+      for (int k = 0; k < pairs; ++k) {
+        const double volume = std::ldexp(1.0, 3 * k);
+        all.push_back({volume, 1});
+        all.push_back({volume * (1 + std::ldexp(1.0, -3 - (isAlike ? 4 : k))), 1});
+      }
+      auto population = populationWith(all, kernel);
+      PairMerging<Sphere> merging;
+      EXPECT_EQ(merging.mergeDownTo(static_cast<std::size_t>(2 * pairs - merged), 100, population),
+                static_cast<std::size_t>(merged));
+      if (isAlike) continue;
+      int nearest = 0;
+      population.forEach([&](const auto& entry) {
+        if (entry.weight == 2 && entry.particle.volume > std::ldexp(1.0, 3 * (pairs - merged))) ++nearest;
+      });
+      EXPECT_EQ(nearest, merged);
+    }
+}
+
 // What stands for little beside its neighbour goes before nearer ones of equal numbers.
 TEST(PairMerging, LooksAtWhatEachStandsFor) {
   const auto kernel = *colliding(constant, 1).coagulation;
