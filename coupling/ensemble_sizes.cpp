@@ -1,12 +1,9 @@
 #include "coupling/ensemble_sizes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numbers>
 
 #include "core/order_free_sums.hpp"
-#include "numerics/vector_math.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 
 namespace lampblack::coupling {
@@ -17,28 +14,16 @@ const SizeBins primaryBins{0.0, 8.0, 64};
 
 }  // namespace
 
-// Logarithms of cubes, many at a time.
+// By the cube of the diameter, which needs no root.
 void addSizes(const RowSizes& of, const SizeBins& bins, std::span<const double> population, std::span<double> density) {
-  constexpr std::size_t atATime = 128;
   const double perVolume = of.type.perVolume(), perBin = 1.0 / bins.width();
-  std::array<double, atATime> cubes, numbers;
-  std::size_t n = 0;
-  const auto flush = [&] {
-    numerics::vectormath::log(cubes.data(), cubes.data(), n);
-    for (std::size_t k = 0; k < n; ++k) {
-      const std::size_t bin = bins.ofLog(std::numbers::log10e / 3.0 * cubes[k]);
-      if (bin < bins.count) density[bin] += numbers[k] * perBin;
-    }
-    n = 0;
-  };
   of.rows.forEach(of.rows.of(population), [&](const double* row) {
     const double primaries = of.type.coalescing() ? 1.0 : row[2];
     const double factor = SootAggregate::mobilityFactor(primaries);
-    cubes[n] = perVolume * massAt(row) / primaries * (factor * factor * factor);
-    numbers[n] = row[packedNumberAt];
-    if (++n == atATime) flush();
+    const double cube = perVolume * massAt(row) / primaries * (factor * factor * factor);
+    const std::size_t bin = bins.ofLog(std::log10(cube) / 3.0);
+    if (bin < bins.count) density[bin] += row[packedNumberAt] * perBin;
   });
-  flush();
 }
 
 double geometricDeviation(const RowSizes& of, std::span<const double> population) {
