@@ -236,13 +236,14 @@ void addSteadyKeys(DeckSchema& schema) {
                .atLeast(1)
                .atMost(1e5)
                .onlyWith("time.mode", steady))
-      .add(booleanKey(
-               "time.steady.light",
-               "Lights the flow where nothing burns once the steps in time are over, though the start had gas of more "
-               "than 1000 K: each cell whose mixture burns to a gas at least 500 K hotter becomes that gas. At most "
-               "twice; the run says so. false: what is not lit stays cold.")
-               .byDefault("true")
-               .onlyWith("time.mode", steady))
+      .add(
+          booleanKey("time.steady.light",
+                     "Lights the flow where nothing burns once the steps in time are over, or in the steady state that "
+                     "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "
+                     "a gas at least 500 K hotter becomes that gas. At most "
+                     "twice; the run says so. false: what is not lit stays cold.")
+              .byDefault("true")
+              .onlyWith("time.mode", steady))
       .add(integerKey("time.steady.coarser_meshes",
                       "Number of coarser meshes, each of half the cells of the next in every direction (of a plane "
                       "box), on which the steady state is sought first: what is found on one is the start on the next. "

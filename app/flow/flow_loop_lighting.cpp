@@ -35,6 +35,7 @@ void FlowLoop::lightIfDark(Outputs& outputs) {
   if (burnsOrCannot()) return;
   const std::int64_t cells = flow::lightMixture(domain_->context, domain_->state);
   if (cells == 0) return;
+  iteration_.reset();
   domain_->beginAnew(case_);
   beginNextStep();
   dt_ = case_.time.firstStep;

@@ -70,6 +70,7 @@ double FlowLoop::largestNorm() const {
 void FlowLoop::searchOn(Outputs& outputs) {
   if (search_->phase() == SteadySearch::Phase::Iterations) {
     iterate(outputs);
+    if (search_->isSteady()) lightIfDark(outputs);
   } else {
     const ProcessorTime scope(processorTime_[InTime]);
     const std::int64_t retried = retried_;

@@ -207,7 +207,9 @@ TEST_F(ResidualOfChannel, CountsSpeciesOnce) {
   double species = 0.0;
   for (const ResidualNorm& norm : residualNorms(b.context, state, residual, 0.012 / 0.5)) {
     if (norm.kind == ResidualNorm::Kind::Species) species = std::max(species, norm.value);
-    if (norm.equation == "enthalpy") EXPECT_LT(norm.value, 1e-7);
+    if (norm.equation == "enthalpy") {
+      EXPECT_LT(norm.value, 1e-7);
+    }
   }
   EXPECT_GT(species, 0.1);
 }
