@@ -240,8 +240,8 @@ void addSteadyKeys(DeckSchema& schema) {
           booleanKey("time.steady.light",
                      "Lights the flow where nothing burns once the steps in time are over, or in the steady state that "
                      "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "
-                     "a gas at least 500 K hotter becomes that gas. At most "
-                     "twice; the run says so. false: what is not lit stays cold.")
+                     "a gas at least 500 K hotter becomes that gas. At most twice; the run says so. false: what is not "
+                     "lit stays cold.")
               .byDefault("true")
               .onlyWith("time.mode", steady))
       .add(integerKey("time.steady.coarser_meshes",

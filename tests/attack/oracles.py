@@ -7,7 +7,7 @@ import h5py
 import numpy as np
 
 # Documented to be NaN where something did not happen or is not known (docs/formats.md).
-MAY_BE_NAN = ("/ignition/", "/sensitivity/", "exact", "error", "sigma", "/methods/", "residual_")
+MAY_BE_NAN = ("/ignition/", "/sensitivity/", "exact", "error", "sigma", "/methods/", "/history/residual_")
 NO_SIGNATURE = "file signature not found"
 LARGEST_IMBALANCE = 1e-5
 

@@ -136,7 +136,7 @@ void TurbulenceOperator::findShear() {
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j)
         for (std::size_t k = 0; k < 3; ++k) cubes += S[i][j] * S[j][k] * S[k][i];
-    cell.strainShape = squared > 0.0 ? cubes / std::pow(0.5 * squared, 1.5) : 0.0;
+    cell.strainShape = squared > 0.0 ? cubes / (0.5 * squared * std::sqrt(0.5 * squared)) : 0.0;
     for (std::size_t i = 0; i < 3; ++i) S[i][i] -= cell.dilatation / 6.0;
     double stretching = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
