@@ -16,7 +16,7 @@ namespace {
 using testing::ElementsAre;
 
 const std::filesystem::path folder = test::sourceFolder / "cases/deck.yaml";
-const std::string hydrogen = "mechanism: mechanisms/hydrogen_h2o2_10.yaml\n";
+const std::string hydrogenMechanism = "mechanism: mechanisms/hydrogen_h2o2_10.yaml\n";
 
 TEST(DeckValues, OfAFlow) {
   const FlowCase flow = readFlowCase(test::flameDeck(
@@ -171,7 +171,7 @@ TEST(DeckValues, AFlameLaidOverTheMesh) {
 }
 
 ReactorCase reactor(const std::string& text) {
-  return readReactorCase(Deck::parse("problem: reactor\n" + hydrogen + text, folder, {}, reactorSchema()));
+  return readReactorCase(Deck::parse("problem: reactor\n" + hydrogenMechanism + text, folder, {}, reactorSchema()));
 }
 
 TEST(DeckValues, OfAPlugFlow) {
@@ -260,7 +260,7 @@ network:
 }
 
 TEST(DeckValues, OfAFlamesSolver) {
-  const FlameCase flame = readFlameCase(Deck::parse("problem: flame1d\n" + hydrogen + R"(
+  const FlameCase flame = readFlameCase(Deck::parse("problem: flame1d\n" + hydrogenMechanism + R"(
 flame: {type: counterflow, nozzles: potential, strain_rate: 150 1/s, stagnation_plane: 4 mm, length: 11 mm}
 left: {temperature: 310 K, composition: "H2: 1, N2: 1"}
 right: {temperature: 420 K, composition: "O2: 1, N2: 4"}

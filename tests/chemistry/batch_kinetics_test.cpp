@@ -23,6 +23,7 @@ using Instructions = BatchKinetics::Instructions;
 using lampblack::test::measured;
 using lampblack::test::raise;
 using lampblack::test::RateTypes;
+using lampblack::test::shipped;
 using lampblack::test::Table;
 
 std::vector<Instructions> availableInstructions() {
@@ -30,10 +31,6 @@ std::vector<Instructions> availableInstructions() {
   for (const auto i : {Instructions::Generic, Instructions::Avx2, Instructions::Avx512})
     if (BatchKinetics::available(i)) result.push_back(i);
   return result;
-}
-
-Mechanism shipped(const std::string& name) {
-  return Mechanism::fromFile(lampblack::test::sourcePath("cases/mechanisms/" + name + ".yaml"));
 }
 
 // States in the layout of a batch.

@@ -7,18 +7,18 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "tests/chemistry/chemkin_support.hpp"
+#include "tests/chemistry/mechanism_text.hpp"
 #include "tests/every_module.hpp"
 
 namespace {
 
 using namespace lampblack;
 using namespace lampblack::chemistry;
+using lampblack::test::kelvinPerCalorie;
 using lampblack::test::readChemkinReactions;
 using ::testing::HasSubstr;
 
-constexpr double kR = 8.31446261815324;   // J/mol/K
-constexpr double kCalorie = 4.184 / kR;   // K for 1 cal/mol
-constexpr double kAtmosphere = 101325.0;  // Pa
+constexpr double kR = 8.31446261815324;  // J/mol/K
 
 void expectRate(const Arrhenius& rate, double A, double b, double Ta) {
   EXPECT_NEAR(rate.A, A, 1e-14 * std::abs(A));
@@ -42,7 +42,7 @@ TEST(ChemkinReaction, OrderSetsTheUnitOfA) {
       "2H+M=H2+M 1.0E18 -1.0 0.\n"
       "H2O2=2OH 1.D15 0 50.\n"
       "HO2=>O+OH 1.0+15 0 50.\nDUP\nHO2=>O+OH -1.0+14 0 0\nDUP");
-  expectRate(mechanism.reaction(0).rate, 2e8, -0.4, 16600 * kCalorie);
+  expectRate(mechanism.reaction(0).rate, 2e8, -0.4, 16600 * kelvinPerCalorie);
   EXPECT_EQ(mechanism.reaction(0).type, Reaction::Type::Elementary);
   EXPECT_TRUE(mechanism.reaction(0).reversible);
   EXPECT_EQ(mechanism.reaction(0).equation, "H + O2 <=> O + OH");
@@ -50,7 +50,7 @@ TEST(ChemkinReaction, OrderSetsTheUnitOfA) {
   expectRate(mechanism.reaction(1).rate, 1e6, -1, 0);
   EXPECT_EQ(mechanism.reaction(1).type, Reaction::Type::ThreeBody);
   EXPECT_EQ(mechanism.reaction(1).equation, "2 H + M <=> H2 + M");
-  expectRate(mechanism.reaction(2).rate, 1e15, 0, 50 * kCalorie);
+  expectRate(mechanism.reaction(2).rate, 1e15, 0, 50 * kelvinPerCalorie);
   EXPECT_FALSE(mechanism.reaction(3).reversible);
   EXPECT_TRUE(mechanism.reaction(3).duplicate);
   expectRate(mechanism.reaction(4).rate, -1e14, 0, 0);
@@ -61,14 +61,14 @@ TEST(ChemkinReaction, Units) {
     const char* units;
     double A, Ta;
   } forms[] = {
-      {"", 1e14, kCalorie},
-      {"CAL/MOLE MOLES", 1e14, kCalorie},
-      {"kcal/mole", 1e14, 1e3 * kCalorie},
+      {"", 1e14, kelvinPerCalorie},
+      {"CAL/MOLE MOLES", 1e14, kelvinPerCalorie},
+      {"kcal/mole", 1e14, 1e3 * kelvinPerCalorie},
       {"JOULES/MOLE", 1e14, 1 / kR},
       {"KJOULES/MOLE", 1e14, 1e3 / kR},
       {"Kelvins", 1e14, 1},
-      {"EVOLTS", 1e14, 11604.518121550082},           // e/k_B
-      {"MOLECULES", 1e14 * 6.02214076e23, kCalorie},  // cm3/molecule/s
+      {"EVOLTS", 1e14, 11604.518121550082},                   // e/k_B
+      {"MOLECULES", 1e14 * 6.02214076e23, kelvinPerCalorie},  // cm3/molecule/s
       {"KELVINS molecules", 1e14 * 6.02214076e23, 1},
   };
   for (const auto& form : forms) {
@@ -114,8 +114,8 @@ TEST(ChemkinReaction, FallOff) {
   const auto& troe = mechanism.reaction(0);
   EXPECT_EQ(troe.type, Reaction::Type::Falloff);
   EXPECT_EQ(troe.equation, "2 CH3 (+M) <=> C2H6 (+M)");
-  expectRate(troe.rate, 6e7, -0.5, 620 * kCalorie);
-  expectRate(troe.lowPressureRate, 3e29, -7, 2760 * kCalorie);
+  expectRate(troe.rate, 6e7, -0.5, 620 * kelvinPerCalorie);
+  expectRate(troe.lowPressureRate, 3e29, -7, 2760 * kelvinPerCalorie);
   EXPECT_EQ(troe.troe->A, 0.62);
   EXPECT_EQ(troe.troe->T3, 73);
   EXPECT_EQ(troe.troe->T1, 1180);
@@ -156,8 +156,8 @@ TEST(ChemkinReaction, ChemicallyActivated) {
       readChemkinReactions("\nCH3+OH(+M)=CH2(S)+H2O(+M) 1.5E12 0.5 -100.\n HIGH/ 4E7 1.5 2000/\nTROE/.5 1 2 3/");
   const auto& reaction = mechanism.reaction(0);
   EXPECT_EQ(reaction.type, Reaction::Type::ChemicallyActivated);
-  expectRate(reaction.lowPressureRate, 1.5e6, 0.5, -100 * kCalorie);
-  expectRate(reaction.rate, 4e7, 1.5, 2000 * kCalorie);
+  expectRate(reaction.lowPressureRate, 1.5e6, 0.5, -100 * kelvinPerCalorie);
+  expectRate(reaction.rate, 4e7, 1.5, 2000 * kelvinPerCalorie);
   EXPECT_EQ(reaction.troe->T2.value(), 3);
 }
 
@@ -170,8 +170,8 @@ TEST(ChemkinReaction, PressureLog) {
   const double expected[][4] = {{0.1, 1e7, 1, 10}, {1, 2e7, 0, 20}, {10, 3e7, 0, 30}, {10, 5e6, 0.5, 50}};
   ASSERT_EQ(reaction.pressureRates.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
-    EXPECT_DOUBLE_EQ(reaction.pressureRates[i].pressure, expected[i][0] * kAtmosphere);
-    expectRate(reaction.pressureRates[i].rate, expected[i][1], expected[i][2], expected[i][3] * kCalorie);
+    EXPECT_DOUBLE_EQ(reaction.pressureRates[i].pressure, expected[i][0] * constants::oneAtmosphere);
+    expectRate(reaction.pressureRates[i].rate, expected[i][1], expected[i][2], expected[i][3] * kelvinPerCalorie);
   }
 }
 
@@ -183,7 +183,7 @@ TEST(ChemkinReaction, PressureLogWithMIsOneOfTheMixture) {
   const auto& reaction = mechanism.reaction(0);
   EXPECT_EQ(reaction.type, Reaction::Type::PressureLog);
   EXPECT_FALSE(reaction.thirdBody);
-  expectRate(reaction.pressureRates[0].rate, 3e13, 0, 30 * kCalorie);
+  expectRate(reaction.pressureRates[0].rate, 3e13, 0, 30 * kelvinPerCalorie);
   ASSERT_EQ(warnings.size(), 1U);
   EXPECT_THAT(warnings[0], HasSubstr("chem.inp:6: reaction 'H2O+M=H+OH+M': '+M' is taken as '(+M)'"));
 }
@@ -197,8 +197,8 @@ TEST(ChemkinReaction, Chebyshev) {
   EXPECT_EQ(mechanism.reaction(0).equation, "CH3 + H <=> CH4");
   EXPECT_EQ(rate.minTemperature, 290);
   EXPECT_EQ(rate.maxTemperature, 3000);
-  EXPECT_DOUBLE_EQ(rate.minPressure, 0.01 * kAtmosphere);
-  EXPECT_DOUBLE_EQ(rate.maxPressure, 10 * kAtmosphere);
+  EXPECT_DOUBLE_EQ(rate.minPressure, 0.01 * constants::oneAtmosphere);
+  EXPECT_DOUBLE_EQ(rate.maxPressure, 10 * constants::oneAtmosphere);
   EXPECT_EQ(rate.numTemperature, 2U);
   EXPECT_EQ(rate.numPressure, 3U);
   EXPECT_NEAR(rate.coefficients[0], 2.25, 1e-14);  // 1 cm3/mol/s = 10^-6 m3/mol/s
@@ -208,8 +208,8 @@ TEST(ChemkinReaction, Chebyshev) {
   EXPECT_EQ(standard.coefficients, (std::vector<double>{5, 6}));  // 1/s has no unit to convert
   EXPECT_EQ(standard.minTemperature, 300);
   EXPECT_EQ(standard.maxTemperature, 2500);
-  EXPECT_DOUBLE_EQ(standard.minPressure, 0.001 * kAtmosphere);
-  EXPECT_DOUBLE_EQ(standard.maxPressure, 100 * kAtmosphere);
+  EXPECT_DOUBLE_EQ(standard.minPressure, 0.001 * constants::oneAtmosphere);
+  EXPECT_DOUBLE_EQ(standard.maxPressure, 100 * constants::oneAtmosphere);
 }
 
 TEST(ChemkinReaction, ReverseRatesMakeTwoIrreversibleReactions) {
@@ -220,9 +220,9 @@ TEST(ChemkinReaction, ReverseRatesMakeTwoIrreversibleReactions) {
   ASSERT_EQ(mechanism.numReactions(), 5U);
   EXPECT_EQ(mechanism.reaction(0).equation, "H + O2 => O + OH");
   EXPECT_EQ(mechanism.reaction(1).equation, "O + OH => H + O2");
-  expectRate(mechanism.reaction(1).rate, 3e7, 0.5, 100 * kCalorie);
+  expectRate(mechanism.reaction(1).rate, 3e7, 0.5, 100 * kelvinPerCalorie);
   EXPECT_EQ(mechanism.reaction(3).equation, "H2 + M => 2 H + M");
-  expectRate(mechanism.reaction(3).rate, 5e8, 0, 1e5 * kCalorie);
+  expectRate(mechanism.reaction(3).rate, 5e8, 0, 1e5 * kelvinPerCalorie);
   EXPECT_EQ(terms(mechanism, mechanism.reaction(3).thirdBody->efficiencies), "6 H2O ");
   EXPECT_EQ(mechanism.reaction(4).equation, "H2O2 => 2 OH");
 }
@@ -287,7 +287,7 @@ TEST(ChemkinReaction, LinesThatGoOn) {
       "2H+M=H2+M 1.0E18 -1.0 0.   ! and what they say\nH2O/6.0/ & \n N2/2.0/\n"
       "C=C+M=C2H4+M 1 0 0\nC=C/2.0/ C2H4/3/ ! a name with '=' in front of a slash is no reaction");
   ASSERT_EQ(mechanism.numReactions(), 3U);
-  expectRate(mechanism.reaction(0).rate, 2e8, -0.4, 16600 * kCalorie);
+  expectRate(mechanism.reaction(0).rate, 2e8, -0.4, 16600 * kelvinPerCalorie);
   EXPECT_EQ(terms(mechanism, mechanism.reaction(1).thirdBody->efficiencies), "6 H2O 2 N2 ");
   EXPECT_EQ(terms(mechanism, mechanism.reaction(2).thirdBody->efficiencies), "2 C=C 3 C2H4 ");
 }

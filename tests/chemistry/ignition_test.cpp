@@ -68,7 +68,7 @@ Run ignite(const Mechanism& mechanism, const GasState& state, double end, Held h
 
 // Cantera 3.2.0 at rtol 1e-10, atol 1e-18. Its delays by dT/dt and by OH are those of a step's end, so that at the flat
 // maximum of OH they are as far off as the steps are apart; the rise is interpolated.
-struct Reference {
+struct IgnitionRow {
   const char* mechanism;
   const char* mixture;
   double T, end;
@@ -76,10 +76,10 @@ struct Reference {
   double resolution;  // of largestY
 };
 
-class IgnitionReference : public ::testing::TestWithParam<Reference> {};
+class IgnitionReference : public ::testing::TestWithParam<IgnitionRow> {};
 
 TEST_P(IgnitionReference, DelaysAndEndTemperatureAreCanteras) {
-  const Reference& reference = GetParam();
+  const IgnitionRow& reference = GetParam();
   const auto mechanism = Mechanism::fromFile(sourcePath(std::string("cases/mechanisms/") + reference.mechanism));
   const auto run = ignite(mechanism, mixture(mechanism, reference.mixture, reference.T), reference.end);
   for (const auto& event : run.events) ASSERT_TRUE(event);
@@ -94,12 +94,12 @@ TEST_P(IgnitionReference, DelaysAndEndTemperatureAreCanteras) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cantera, IgnitionReference,
-                         ::testing::Values(Reference{"hydrogen_h2o2_10.yaml", "H2: 2, O2: 1, N2: 3.76", 1200,
-                                                     2.128889684e-3, 4.533140061231591e-05, 4.670195131454844e-05,
-                                                     9.830949901908176e-05, 2763.319735151931, 1e-4},
-                                           Reference{"methane_gri30_53.yaml", "CH4: 1, O2: 2, N2: 7.52", 1400,
-                                                     0.105422582554969, 0.003437526306525981, 0.003424685936341753,
-                                                     0.003464835657555304, 2697.8832325, 1e-5}),
+                         ::testing::Values(IgnitionRow{"hydrogen_h2o2_10.yaml", "H2: 2, O2: 1, N2: 3.76", 1200,
+                                                       2.128889684e-3, 4.533140061231591e-05, 4.670195131454844e-05,
+                                                       9.830949901908176e-05, 2763.319735151931, 1e-4},
+                                           IgnitionRow{"methane_gri30_53.yaml", "CH4: 1, O2: 2, N2: 7.52", 1400,
+                                                       0.105422582554969, 0.003437526306525981, 0.003424685936341753,
+                                                       0.003464835657555304, 2697.8832325, 1e-5}),
                          [](const auto& test) { return std::string(test.param.mechanism).substr(0, 7); });
 
 // The delay is found inside the steps: loose and tight steps agree to their tolerances, and a step that is a hundredth

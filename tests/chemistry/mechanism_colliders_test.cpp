@@ -13,11 +13,9 @@ namespace {
 
 using namespace lampblack;
 using namespace lampblack::chemistry;
+using lampblack::test::kelvinPerCalorie;
 using lampblack::test::readFileText;
 using lampblack::test::readText;
-
-constexpr double kCalorie = 4.184 / constants::gasConstant;  // K for 1 cal/mol
-constexpr double kAtmosphere = 101325.0;
 
 // Units of the file: cm, mol, cal/mol. The phase has H, O2, HO2, AR and N2.
 Mechanism withReaction(const std::string& reaction) {
@@ -79,16 +77,17 @@ TEST(LinearBurke, IsTheMixtureRuleOfItsPaper) {
     low-P-rate-constant: {A: 1e19, b: -1, Ea: 500}
     high-P-rate-constant: {A: 5e12, b: 0.4, Ea: 0}
     Tsang: {A: 0.9, B: -2e-4})");
-  const double T = 1200, total = 20 * kAtmosphere / (constants::gasConstant * T);
+  const double T = 1200, total = 20 * constants::oneAtmosphere / (constants::gasConstant * T);
   const double X[] = {0.1, 0.2, 0.0, 0.4, 0.3};
   std::vector<double> c;
   for (const double x : X) c.push_back(x * total);
-  const double argon = 0.02 * std::sqrt(T) * std::exp(100 * kCalorie / T), nitrogen = 2;
+  const double argon = 0.02 * std::sqrt(T) * std::exp(100 * kelvinPerCalorie / T), nitrogen = 2;
   const double mix = 0.1 + 0.2 + 0.4 * argon + 0.3 * nitrogen;
   // k of M is proportional to p: 2e6 m3/mol/s at 1 atm. Argon takes it at the same pressure p mix.
   const double ofAll = 2e6 * 20 * mix;
   const double M = total * mix / nitrogen;
-  const double high = 5e6 * std::pow(T, 0.4), low = 1e7 / T * std::exp(-500 * kCalorie / T), Pr = low * M / high;
+  const double high = 5e6 * std::pow(T, 0.4), low = 1e7 / T * std::exp(-500 * kelvinPerCalorie / T),
+               Pr = low * M / high;
   const double logCentre = std::log10(0.9 - 2e-4 * T), x = std::log10(Pr) - 0.4 - 0.67 * logCentre;
   const double f = x / (0.75 - 1.27 * logCentre - 0.14 * x);
   const double ofNitrogen = high * Pr / (1 + Pr) * std::pow(10, logCentre / (1 + f * f));
@@ -112,7 +111,8 @@ TEST(LinearBurke, EigenvaluesAreRatios) {
   const std::vector<double> mixed{1, 2, 0, 5, 3}, pure{1, 2, 0, 0, 3};
   EXPECT_DOUBLE_EQ(constantOf(ratios, 900, mixed), constantOf(efficiencies, 900, mixed));
   const double p = constants::gasConstant * 900 * 6;
-  EXPECT_NEAR(constantOf(ratios, 900, pure), 2e6 * p / kAtmosphere, 1e-12 * 2e6 * p / kAtmosphere);
+  EXPECT_NEAR(constantOf(ratios, 900, pure), 2e6 * p / constants::oneAtmosphere,
+              1e-12 * 2e6 * p / constants::oneAtmosphere);
 }
 
 // A collider that the phase does not have can be left out.

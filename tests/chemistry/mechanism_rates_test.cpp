@@ -13,12 +13,11 @@ namespace {
 
 using namespace lampblack;
 using namespace lampblack::chemistry;
+using lampblack::test::kelvinPerCalorie;
 using lampblack::test::readText;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using Type = Reaction::Type;
-
-constexpr double kCalorie = constants::thermochemicalCalorie / constants::gasConstant;  // K per cal/mol
 
 // The file's units are cm, mol and cal/mol. Reactions start in line 13.
 Mechanism read(const std::string& reactions) {
@@ -48,8 +47,8 @@ TEST(MechanismRates, FalloffWithTroeOfThreeAndFourParameters) {
   const auto three =
       readOne("{equation: H + O2 (+M) <=> HO2 (+M), " + limits + ", Troe: {A: 0.5, T3: 30.0, T1: 90000}}");
   EXPECT_EQ(three.type, Type::Falloff);
-  expectRate(three.rate, 4.65e6, 0.44, 0);                              // cm3/mol/s to m3/mol/s
-  expectRate(three.lowPressureRate, 6.366e8, -1.72, 524.8 * kCalorie);  // cm6/mol2/s to m6/mol2/s
+  expectRate(three.rate, 4.65e6, 0.44, 0);                                      // cm3/mol/s to m3/mol/s
+  expectRate(three.lowPressureRate, 6.366e8, -1.72, 524.8 * kelvinPerCalorie);  // cm6/mol2/s to m6/mol2/s
   EXPECT_EQ(three.troe->A, 0.5);
   EXPECT_EQ(three.troe->T3, 30);
   EXPECT_EQ(three.troe->T1, 90000);
@@ -95,8 +94,8 @@ TEST(MechanismRates, ChemicallyActivated) {
       "{equation: H + O2 (+M) <=> HO2 (+M), type: chemically-activated, high-P-rate-constant: [5.88e-14, 6.721, "
       "-3022.227], low-P-rate-constant: [2.82320078e+08, 1.46878, -3270.56495], efficiencies: {AR: 0.5}}");
   EXPECT_EQ(reaction.type, Type::ChemicallyActivated);
-  expectRate(reaction.lowPressureRate, 282.320078, 1.46878, -3270.56495 * kCalorie);
-  expectRate(reaction.rate, 5.88e-14, 6.721, -3022.227 * kCalorie);
+  expectRate(reaction.lowPressureRate, 282.320078, 1.46878, -3270.56495 * kelvinPerCalorie);
+  expectRate(reaction.rate, 5.88e-14, 6.721, -3022.227 * kelvinPerCalorie);
   EXPECT_EQ(reaction.thirdBody->efficiencies[0].coefficient, 0.5);
 }
 
@@ -119,10 +118,10 @@ TEST(MechanismRates, PressuresInAnyOrderAndRepeated) {
   EXPECT_EQ(rates[3].pressure, 101325);
   EXPECT_DOUBLE_EQ(rates[4].pressure, 1.01325e6);
   expectRate(rates[0].rate, 1e-3, 0, 0);
-  expectRate(rates[1].rate, 2.72e3, 1.2, 6834 * kCalorie);
-  expectRate(rates[2].rate, 1.26e14, -1.83, 15003 * kCalorie);
-  expectRate(rates[3].rate, -1.26e13, -1.9, 15100 * kCalorie);
-  expectRate(rates[4].rate, 1.68e10, -0.6, 14754 * kCalorie);
+  expectRate(rates[1].rate, 2.72e3, 1.2, 6834 * kelvinPerCalorie);
+  expectRate(rates[2].rate, 1.26e14, -1.83, 15003 * kelvinPerCalorie);
+  expectRate(rates[3].rate, -1.26e13, -1.9, 15100 * kelvinPerCalorie);
+  expectRate(rates[4].rate, 1.68e10, -0.6, 14754 * kelvinPerCalorie);
 }
 
 TEST(MechanismRates, PressuresFollowTheUnitsOfTheReaction) {
@@ -220,7 +219,7 @@ TEST(MechanismRates, UnitsBehindNumbers) {
              1.602176634e-19 / constants::boltzmann);
   expectRate(A("H + O2 + M => HO2 + M", "[6 L^2/mol^2/min, 0.5, 300 K]"), 1e-7, 0.5, 300);
   expectRate(A("H + O2 + M => HO2 + M", "[2 cm^6*mol^-2*s^-1, 0, 0]"), 2e-12, 0, 0);
-  expectRate(A("HO2 => H + O2", "[3 1/ms, 0, 10 kcal/mol]"), 3000, 0, 10000 * kCalorie);
+  expectRate(A("HO2 => H + O2", "[3 1/ms, 0, 10 kcal/mol]"), 3000, 0, 10000 * kelvinPerCalorie);
   expectRate(A("HO2 => H + O2", "{A: 3, b: 0, Ea: 0}"), 3, 0, 0);
 }
 

@@ -4,10 +4,14 @@
 #include <string>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "core/constants.hpp"
 #include "tests/every_module.hpp"
 #include "tests/scratch.hpp"
 
 namespace lampblack::test {
+
+inline constexpr double kelvinPerCalorie =
+    constants::thermochemicalCalorie / constants::gasConstant;  // activation energies in cal/mol
 
 // Writes the text to a file, reads it as a mechanism, removes the file.
 inline Mechanism readFileText(const std::string& text, const std::string& phase = "") {

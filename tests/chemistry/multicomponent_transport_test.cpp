@@ -25,12 +25,12 @@ using lampblack::test::Pairs;
 using lampblack::test::raise;
 using lampblack::test::Table;
 
-struct Reference {
+struct MulticomponentTables {
   const char* tables;
   const char* mechanism;
 };
 
-class MulticomponentReference : public ::testing::TestWithParam<Reference> {
+class MulticomponentReference : public ::testing::TestWithParam<MulticomponentTables> {
  protected:
   Table table(const std::string& kind) const {
     return Table(std::string("transport_") + GetParam().tables + "_" + kind + ".csv");
@@ -84,8 +84,8 @@ TEST_P(MulticomponentReference, AgreesWithCantera) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cantera, MulticomponentReference,
-                         ::testing::Values(Reference{"h2o2", "hydrogen_h2o2_10.yaml"},
-                                           Reference{"gri30", "methane_gri30_53.yaml"}),
+                         ::testing::Values(MulticomponentTables{"h2o2", "hydrogen_h2o2_10.yaml"},
+                                           MulticomponentTables{"gri30", "methane_gri30_53.yaml"}),
                          [](const auto& reference) { return std::string(reference.param.tables); });
 
 // Two gases, eight others absent: D_12 = D_21 is the binary coefficient.

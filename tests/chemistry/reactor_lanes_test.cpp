@@ -24,6 +24,7 @@ namespace {
 using namespace lampblack;
 using namespace lampblack::chemistry;
 using lampblack::test::measured;
+using lampblack::test::shipped;
 using Instructions = BatchKinetics::Instructions;
 using Outcome = ReactorLanes::Reactor::Outcome;
 
@@ -35,10 +36,6 @@ std::vector<Instructions> available() {
   for (const auto i : {Instructions::Generic, Instructions::Avx2, Instructions::Avx512})
     if (BatchKinetics::available(i)) result.push_back(i);
   return result;
-}
-
-Mechanism shipped(const std::string& name) {
-  return Mechanism::fromFile(test::sourcePath("cases/mechanisms/" + name + ".yaml"));
 }
 
 // Fuel and air on their way to equilibrium, as cells of a flow: some without a source, some with one that balances most

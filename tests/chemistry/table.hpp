@@ -14,13 +14,18 @@
 
 namespace lampblack::test {
 
+// A mechanism that ships, by its name.
+inline Mechanism shipped(const std::string& name) {
+  return Mechanism::fromFile(sourcePath("cases/mechanisms/" + name + ".yaml"));
+}
+
 inline const Mechanism& hydrogen() {
-  static const auto mechanism = Mechanism::fromFile(sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml"));
+  static const auto mechanism = shipped("hydrogen_h2o2_10");
   return mechanism;
 }
 
 inline const Mechanism& ethylene() {
-  static const auto mechanism = Mechanism::fromFile(sourcePath("cases/mechanisms/ethylene_bisetti2012_47.yaml"));
+  static const auto mechanism = shipped("ethylene_bisetti2012_47");
   return mechanism;
 }
 

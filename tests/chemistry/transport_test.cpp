@@ -24,7 +24,7 @@ using lampblack::test::measured;
 using lampblack::test::raise;
 using lampblack::test::Table;
 
-struct Reference {
+struct TransportTables {
   const char* tables;
   const char* mechanism;
 };
@@ -33,7 +33,7 @@ struct Deviation {
   double viscosity = 0, conductivity = 0, diffusion = 0, molar = 0, mass = 0, thermal = 0, pureViscosity = 0;
 };
 
-class TransportReference : public ::testing::TestWithParam<Reference> {
+class TransportReference : public ::testing::TestWithParam<TransportTables> {
  protected:
   Table table(const std::string& kind) const {
     return Table(std::string("transport_") + GetParam().tables + "_" + kind + ".csv");
@@ -107,8 +107,8 @@ TEST_P(TransportReference, WangFits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Cantera, TransportReference,
-                         ::testing::Values(Reference{"h2o2", "hydrogen_h2o2_10.yaml"},
-                                           Reference{"gri30", "methane_gri30_53.yaml"}),
+                         ::testing::Values(TransportTables{"h2o2", "hydrogen_h2o2_10.yaml"},
+                                           TransportTables{"gri30", "methane_gri30_53.yaml"}),
                          [](const auto& reference) { return std::string(reference.param.tables); });
 
 TEST(Transport, BinaryCoefficientsAgreeWithCantera) {

@@ -15,8 +15,6 @@
 namespace lampblack::test {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 class MeshCells : public testing::TestWithParam<Geometry> {
  protected:
   Mesh mesh{MPI_COMM_WORLD, gradedBox(GetParam())};

@@ -16,8 +16,6 @@
 namespace lampblack::test {
 namespace {
 
-constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 class MeshFaces : public testing::TestWithParam<Geometry> {
  protected:
   // +1 when the face's normal points out of the cell.

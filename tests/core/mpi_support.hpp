@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,8 @@
 #include "tests/world.hpp"
 
 namespace lampblack::test {
+
+inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 inline double sumOverRanks(double value) {
   MPI_Allreduce(MPI_IN_PLACE, &value, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);

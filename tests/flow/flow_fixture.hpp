@@ -26,8 +26,6 @@
 
 namespace lampblack::test {
 
-inline constexpr double epsilon = std::numeric_limits<double>::epsilon();
-
 // One gas for all tests of an executable: its transport fits are made once.
 struct Gas {
   explicit Gas(const std::string& file)

@@ -11,7 +11,7 @@
 namespace lampblack::numerics {
 namespace {
 
-constexpr std::array<double, 3> unity{1, 1, 1};
+constexpr std::array<double, 3> onesOfThree{1, 1, 1};
 
 // A -> B -> C with a second-order step back (Robertson 1966): stiff, and A + B + C is kept.
 void robertson(std::span<const double> y, std::span<double> f) {
@@ -41,7 +41,7 @@ TEST(RosenbrockSolver, SolvesAStiffProblemAndKeepsItsInvariant) {
 }
 
 // x' = -x^2, y' = x^2 - sin y over a unit of time. Steps of one size, as the tolerance never asks for smaller ones.
-double endAfterSteps(int steps) {
+double endAfterRosenbrockSteps(int steps) {
   RosenbrockSolver solver;
   std::vector<double> y{1, 0};
   const auto rates = [](std::span<const double> x, std::span<double> f) {
@@ -52,12 +52,14 @@ double endAfterSteps(int steps) {
     J.column(0)[0] = -2 * x[0], J.column(1)[0] = 0;
     J.column(0)[1] = 2 * x[0], J.column(1)[1] = -std::cos(x[1]);
   };
-  for (int i = 0; i < steps; ++i) EXPECT_EQ(solver.integrate(rates, jacobian, 1.0 / steps, y, {1e9, unity}).steps, 1);
+  for (int i = 0; i < steps; ++i)
+    EXPECT_EQ(solver.integrate(rates, jacobian, 1.0 / steps, y, {1e9, onesOfThree}).steps, 1);
   return y[1];
 }
 
 TEST(RosenbrockSolver, IsOfThirdOrder) {
-  const double coarse = endAfterSteps(20), middle = endAfterSteps(40), fine = endAfterSteps(80);
+  const double coarse = endAfterRosenbrockSteps(20), middle = endAfterRosenbrockSteps(40),
+               fine = endAfterRosenbrockSteps(80);
   EXPECT_NEAR(std::log2((coarse - middle) / (middle - fine)), 3, 0.1);
 }
 
@@ -72,7 +74,7 @@ TEST(RosenbrockSolver, ErrorFollowsTheTolerance) {
             for (std::size_t i = 0; i < 3; ++i) J.column(j)[i] = 0;
           J.column(1)[0] = 1, J.column(0)[1] = -1, J.column(2)[2] = -1e6;
         },
-        10, y, {tolerance, unity});
+        10, y, {tolerance, onesOfThree});
     EXPECT_NEAR(y[0], std::cos(10), 30 * tolerance) << tolerance;
     EXPECT_NEAR(y[1], -std::sin(10), 30 * tolerance) << tolerance;
   }
@@ -83,11 +85,11 @@ TEST(RosenbrockSolver, SaysWhereItCannotGoOn) {
   std::vector<double> y{1};  // the rates end at 1.5
   const auto rates = [](std::span<const double> x, std::span<double> f) { f[0] = x[0] < 1.5 ? 1 : std::nan(""); };
   const auto jacobian = [](std::span<const double>, DenseLu& J) { J.column(0)[0] = 0; };
-  EXPECT_THROW(solver.integrate(rates, jacobian, 2, y, {1e-6, unity}), NumericsError);
+  EXPECT_THROW(solver.integrate(rates, jacobian, 2, y, {1e-6, onesOfThree}), NumericsError);
   EXPECT_NEAR(y[0], 1.5, 1e-6);  // as far as it came
   std::vector<double> nan{1};
   EXPECT_THROW(solver.integrate([](std::span<const double>, std::span<double> f) { f[0] = std::nan(""); }, jacobian, 1,
-                                nan, {1e-6, unity}),
+                                nan, {1e-6, onesOfThree}),
                NumericsError);
   EXPECT_EQ(nan[0], 1);
 }

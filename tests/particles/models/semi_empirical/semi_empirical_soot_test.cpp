@@ -14,7 +14,7 @@ namespace {
 
 using Oxygen = SemiEmpiricalOptions::Oxygen;
 
-constexpr double carbonWeight = 12.011;     // kg/kmol
+constexpr double carbonPerKmol = 12.011;    // kg/kmol
 constexpr double avogadro = 6.02214076e26;  // 1/kmol
 constexpr double boltzmann = 1.380649e-23;  // J/K
 
@@ -49,15 +49,15 @@ TEST(LeungSoot, RatesAreThoseOfThePaperInKilomoles) {
   const double R1 = 1.0e4 * std::exp(-21100 / T) * c;
   const double R2 = 6.0e3 * std::exp(-12100 / T) * c * std::sqrt(S);
   const double R3 = 1.0e4 * std::sqrt(T) * std::exp(-19680 / T) * S * o;
-  EXPECT_NEAR(at.processes.nucleation / (2 * carbonWeight * R1), 1, 1e-12);
+  EXPECT_NEAR(at.processes.nucleation / (2 * carbonPerKmol * R1), 1, 1e-12);
   EXPECT_NEAR(at.processes.nucleationNumber / (2 * avogadro / 100 * R1), 1, 1e-12);
   // The root of the surface (here 17 m2/m3) is bent at 1e-4: half of 1e-4 / 17.
-  EXPECT_NEAR(at.processes.growth / (2 * carbonWeight * R2), 1, 4e-6);
-  EXPECT_NEAR(at.processes.oxidationO2 / (-carbonWeight * R3), 1, 1e-12);
+  EXPECT_NEAR(at.processes.growth / (2 * carbonPerKmol * R2), 1, 4e-6);
+  EXPECT_NEAR(at.processes.oxidationO2 / (-carbonPerKmol * R3), 1, 1e-12);
   EXPECT_EQ(at.processes.oxidationOH, 0);
   // Number, as printed: 2 Ca (6 M / (pi rho))^(1/6) (6 k T / rho)^(1/2) [C(s)]^(1/6) N^(11/6).
-  const double agglomeration = 2 * 9 * std::pow(6 * carbonWeight / (constants::pi * 2000), 1.0 / 6) *
-                               std::sqrt(6 * boltzmann * T / 2000) * std::pow(1e-3 / carbonWeight, 1.0 / 6) *
+  const double agglomeration = 2 * 9 * std::pow(6 * carbonPerKmol / (constants::pi * 2000), 1.0 / 6) *
+                               std::sqrt(6 * boltzmann * T / 2000) * std::pow(1e-3 / carbonPerKmol, 1.0 / 6) *
                                std::pow(1e17, 11.0 / 6);
   EXPECT_NEAR(at.processes.coagulationNumber / -agglomeration, 1, 1e-12);
 }
