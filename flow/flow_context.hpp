@@ -39,7 +39,8 @@ struct FlowContext {
   TransportModel transportModel{};                    // `transport` has its averaged() options
   std::vector<double> wallDistance{};                 // m, of the owned cells; empty where nobody asks
   EddyNumbers eddies{};
-  double load = 1.0;  // factor on the velocities that inlets are given
+  double load = 1.0;        // factor on the velocities that inlets are given
+  int loadedBoundary = -1;  // the inlet that it is for; -1: all
 
   [[nodiscard]] const BoundaryCondition& boundaryOf(int face) const {
     return boundaries[mesh.patch[face - mesh.interiorFaces]];
@@ -94,7 +95,10 @@ struct FlowContext {
     const BoundaryValues::Face* values = varyingAt(face);
     return loadAt(face) * (values ? values->swirl : boundaryOf(face).swirl);
   }
-  [[nodiscard]] double loadAt(int face) const { return boundaryOf(face).kind == BoundaryKind::Inlet ? load : 1.0; }
+  [[nodiscard]] double loadAt(int face) const {
+    const bool isLoaded = loadedBoundary < 0 || mesh.patch[face - mesh.interiorFaces] == loadedBoundary;
+    return isLoaded && boundaryOf(face).kind == BoundaryKind::Inlet ? load : 1.0;
+  }
   // N/m^3, weight less buoyancy of gas of that density, along an axis or a direction.
   [[nodiscard]] double bodyForce(double density, int axis) const {
     return (density - referenceDensity) * gravity[static_cast<std::size_t>(axis)];

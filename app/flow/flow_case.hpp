@@ -57,6 +57,12 @@ struct TimeControl {
     std::optional<double> time;  // s, of a march; nothing: what the flow gives
     ModeOptions modes;
   };
+  // Of steady states, from the one that was found.
+  struct Branch : FlowBranch::Options {
+    std::string key;         // that the load is a factor on; empty: the velocities of all inlets
+    double start = 1.0;      // its value there, in SI
+    std::string unit = "1";  // of that
+  };
   // In place of a run until `end`, which is then infinite, the search for the steady state.
   struct Search : SteadySearch::Options {
     std::optional<double> time = {};  // s, as SteadyControl::time
@@ -64,7 +70,7 @@ struct TimeControl {
     int coarserMeshes = 0;            // on which the state is sought first
     bool lights = true;               // what was lit by the start and does not burn once the steps in time are over
     std::optional<Stability> stability = {};
-    std::optional<FlowBranch::Options> branch = {};  // of steady states, from the one that was found
+    std::optional<Branch> branch = {};
   };
   std::optional<Search> search;
 

@@ -43,6 +43,9 @@ void addTimeKeys(DeckSchema& schema);
 void addSteadyKeys(DeckSchema& schema);           // of time.steady
 [[nodiscard]] bool isSearched(const Deck& deck);  // whether the run looks for a steady state
 std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase);
+void addBranchKeys(DeckSchema& schema);  // of time.steady.continuation
+std::optional<TimeControl::Branch> readBranch(const Deck& deck, const TimeControl::Search& search,
+                                              const FlowCase& flowCase);
 TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase);
 void requireModeOfParticles(const Deck& deck);
 void readTime(const Deck& deck, FlowCase& flowCase);

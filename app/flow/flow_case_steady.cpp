@@ -15,7 +15,6 @@ namespace {
 constexpr const char* mode = "time.mode";
 constexpr const char* steadySection = "time.steady";
 constexpr const char* stabilitySection = "time.steady.stability";
-constexpr const char* branchSection = "time.steady.continuation";
 constexpr int usualAttempts = 2;
 
 // A vessel without an outlet keeps its mass, and what its gas is heated by its pressure. The equations of a state know
@@ -37,73 +36,6 @@ void requirePressure(const Deck& deck, const FlowCase& flowCase) {
                      "a vessel without an outlet, in which gas comes in or is heated, has a pressure that follows from "
                      "what has happened in it, and not from its steady state alone; expected an outlet, or 'transient' "
                      "with 'time.steady'");
-}
-
-FlowBranch::Options readBranch(const Deck& deck, const TimeControl::Search& search, const FlowCase& flowCase) {
-  if (std::ranges::none_of(flowCase.boundaries, [](const auto& b) { return b.kind == BoundaryKind::Inlet; }))
-    throw deck.error(branchSection, "the load is a factor on the velocities of inlets, and there is none");
-  FlowBranch::Options options;
-  options.towardsHigherLoad = deck.choice("time.steady.continuation.towards") == "higher";
-  options.firstStep = deck.number("time.steady.continuation.first_step");
-  options.lowestLoad = deck.number("time.steady.continuation.lowest_load");
-  options.highestLoad = deck.optionalNumber("time.steady.continuation.highest_load").value_or(options.highestLoad);
-  if (options.lowestLoad >= 1.0 || options.highestLoad <= 1.0)
-    throw deck.error(branchSection,
-                     "the branch begins with a load of one: expected 'lowest_load' below it, and "
-                     "'highest_load' above it");
-  options.lowestPeakTemperature = deck.optionalQuantity("time.steady.continuation.lowest_temperature").value_or(0.0);
-  options.turningPoints = deck.integer<int>("time.steady.continuation.turning_points");
-  options.points = deck.integer<int>("time.steady.continuation.maximum_points");
-  options.iterations = deck.integer<int>("time.steady.continuation.iterations");
-  options.residual = search.residual;
-  return options;
-}
-
-void addBranchKeys(DeckSchema& schema) {
-  const std::vector<std::string> steady{"steady"};
-  const FlowBranch::Options branch;
-  schema
-      .section(branchSection, Presence::optional,
-               "The branch of steady states along a load, a factor on the velocities of all inlets, from the one that "
-               "was found (load 1) round its turning points (extinction, ignition). The run's fields are those of load "
-               "1; the branch is a table.")
-      .add(choiceKey("time.steady.continuation.towards", {"higher", "lower"},
-                     "Whether the load rises or falls at the start of the branch.")
-               .byDefault("higher")
-               .onlyWith("time.mode", steady))
-      .add(numberKey("time.steady.continuation.lowest_load", "The branch ends where the load is below this.")
-               .byDefault("0")
-               .atLeast(0)
-               .onlyWith("time.mode", steady))
-      .add(numberKey("time.steady.continuation.highest_load", "The branch ends where the load is above this.")
-               .optional()
-               .above(0)
-               .onlyWith("time.mode", steady))
-      .add(temperatureKey("time.steady.continuation.lowest_temperature",
-                          "The branch ends where the largest temperature is below this.")
-               .optional()
-               .onlyWith("time.mode", steady))
-      .add(integerKey(
-               "time.steady.continuation.turning_points",
-               "The branch ends after this number of turning points; from a burning flame the first is extinction.")
-               .byDefault(fmt::format("{}", branch.turningPoints))
-               .atLeast(1)
-               .onlyWith("time.mode", steady))
-      .add(integerKey("time.steady.continuation.maximum_points", "The branch ends after this number of states.")
-               .byDefault(fmt::format("{}", branch.points))
-               .atLeast(2)
-               .onlyWith("time.mode", steady))
-      .add(numberKey("time.steady.continuation.first_step",
-                     "Change of the load from the first state of the branch to the second, over the load of the first.")
-               .byDefault(fmt::format("{}", branch.firstStep))
-               .above(0)
-               .below(1)
-               .onlyWith("time.mode", steady))
-      .add(integerKey("time.steady.continuation.iterations",
-                      "Iterations for a state of the branch, after which a shorter step is tried.")
-               .byDefault(fmt::format("{}", branch.iterations))
-               .atLeast(1)
-               .onlyWith("time.mode", steady));
 }
 
 }  // namespace
@@ -157,7 +89,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
     search.stability = {
         deck.optionalQuantity("time.steady.stability.time"),
         {deck.integer<int>("time.steady.stability.vectors"), deck.number("time.steady.stability.disturbance")}};
-  if (deck.has(branchSection)) search.branch = readBranch(deck, search, flowCase);
+  search.branch = readBranch(deck, search, flowCase);
   return search;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/modules.hpp"
 #include "flow/state.hpp"
@@ -52,6 +53,15 @@ inline constexpr double meeting = 11.5301;
   return state.density[cell] * frictionVelocity(energy) * distance;
 }
 
+// How far a cell is in the logarithmic layer, 0 to 1: a smooth step in the logarithm of y* between half an octave below
+// and above the meeting, so that k has a steady state where its y* is near it: the two layers' rates are not the same
+// there.
+[[nodiscard]] inline double logarithmicShare(double yStar) {
+  constexpr double width = 0.5 * std::numbers::ln2;
+  const double at = std::clamp(0.5 + 0.5 * std::log(std::max(yStar, 1e-30) / meeting) / width, 0.0, 1.0);
+  return at * at * (3.0 - 2.0 * at);
+}
+
 // What the law makes of the cell: m^2/s^3, production and dissipation of k.
 struct Layer {
   double production = 0.0, dissipation = 0.0;
@@ -59,10 +69,11 @@ struct Layer {
 // `velocity`: m/s, along the wall; `viscosity`: m^2/s, kinematic; `distance`: m.
 [[nodiscard]] inline Layer layer(double energy, double velocity, double viscosity, double distance) {
   const double friction = frictionVelocity(energy), yStar = friction * distance / viscosity;
-  if (!isLogarithmic(yStar)) return {0.0, 2.0 * viscosity * energy / (distance * distance)};
+  const double share = logarithmicShare(yStar), viscous = 2.0 * viscosity * energy / (distance * distance);
+  if (share == 0.0) return {0.0, viscous};
   const double shear = friction * velocity / walllaw::velocity(yStar);  // m^2/s^2, tau_w/rho
   const double perLength = friction / (kappa * distance);
-  return {shear * perLength, friction * friction * perLength};
+  return {share * shear * perLength, share * friction * friction * perLength + (1.0 - share) * viscous};
 }
 
 }  // namespace lampblack::flow::walllaw

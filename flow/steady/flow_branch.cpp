@@ -48,7 +48,7 @@ FlowBranch::FlowBranch(FlowContext& context, State& state, VelocityScheme scheme
       operators_(std::move(operators)),
       time_(time),
       options_(options),
-      control_(context),
+      control_(context, state, options.load),
       step_(options.firstStep) {}
 
 std::vector<double> FlowBranch::temperatures(const State& state) const {
@@ -72,7 +72,8 @@ FlowBranch::Found FlowBranch::iterate(LoadControl* control) {
         return found;
       }
       found.residual = 0.0;
-      for (const ResidualNorm& norm : residualNorms(context_, state_, iteration.residual(), time_ / context_.load))
+      for (const ResidualNorm& norm :
+           residualNorms(context_, state_, iteration.residual(), time_ / control_.quickens()))
         found.residual = std::isfinite(norm.value) ? std::max(found.residual, norm.value) : INFINITY;
       found.isSteady = outcome.taken && found.residual <= options_.residual;
       if (found.isSteady) return found;
@@ -96,7 +97,7 @@ FlowBranch::Found FlowBranch::iterate(LoadControl* control) {
 FlowBranch::Point FlowBranch::pointNow(double residual) const {
   const Mesh& m = context_.mesh;
   Point point;
-  point.load = context_.load;
+  point.load = control_.load();
   point.residual = residual;
   point.peakTemperature = largestOwned(m, state_.temperature);
   std::vector<double> enthalpies(static_cast<std::size_t>(state_.species));
@@ -147,6 +148,8 @@ void FlowBranch::predict(double part) {
   go(state_.swirl, last_->swirl, before_->swirl);
   go(state_.pressure, last_->pressure, before_->pressure);
   go(state_.massFlux, last_->massFlux, before_->massFlux);
+  const Point &a = points_[points_.size() - 2], &b = points_.back();
+  control_.setLoad(state_, b.load + part * (b.load - a.load));
   const auto n = static_cast<std::size_t>(state_.species);
   inEachCell(context_.mesh, [&](int cell) {
     const std::span<double> Y{&state_.Y[static_cast<std::size_t>(cell) * n], n};
@@ -155,8 +158,6 @@ void FlowBranch::predict(double part) {
     for (double& y : Y) y /= sum;
     followGas(context_, state_, cell);
   });
-  const Point &a = points_[points_.size() - 2], &b = points_.back();
-  control_.setLoad(b.load + part * (b.load - a.load));
 }
 
 void FlowBranch::chooseStep(int iterations) {
@@ -174,7 +175,10 @@ bool FlowBranch::advance() {
   const Mesh& m = context_.mesh;
   const double first = step_;
   const std::vector<double> from = temperatures(*last_);
-  for (; step_ >= shortestStep * first; step_ *= shorterStep) {
+  // What comes in with the gas of a boundary moves the flame before it changes it, and the change of the gas alone does
+  // not know by how much: the load is given as long as that finds a state, and an unknown from there on.
+  bool isGiven = before_ && !control_.isOfAllCells() && !isUnknown_;
+  while (step_ >= shortestStep * first) {
     Found found;
     std::vector<double> foretold = from;
     const double present = points_.back().load;
@@ -185,7 +189,7 @@ bool FlowBranch::advance() {
         control_.require(from, along, step_);
         predict(step_ / control_.lengthOf(along));
         foretold = temperatures(state_);
-        found = iterate(&control_);
+        found = iterate(isGiven ? nullptr : &control_);
       } else {
         control_.scale(state_, present * (options_.towardsHigherLoad ? 1.0 + step_ : 1.0 / (1.0 + step_)));
         found = iterate(nullptr);
@@ -207,6 +211,7 @@ bool FlowBranch::advance() {
         Point point = pointNow(found.residual);
         point.iterations = std::exchange(failed_, 0);
         add(point, control_.lengthOf(change));
+        isUnknown_ = before_ && !isGiven;
         before_ = std::exchange(last_, state_);
         chooseStep(found.iterations);
         reason_.clear();
@@ -216,7 +221,13 @@ bool FlowBranch::advance() {
     }
     reason_ = found.why;
     state_ = *last_;
-    control_.setLoad(present);
+    control_.setLoad(state_, present);
+    if (isGiven) {
+      isGiven = false;
+      continue;
+    }
+    step_ *= shorterStep;
+    isGiven = before_ && !control_.isOfAllCells();
   }
   reason_ = fmt::format("even a step of a hundredth finds no state: {}", reason_);
   return false;

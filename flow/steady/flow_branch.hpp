@@ -20,6 +20,7 @@ namespace lampblack::flow {
 class FlowBranch {
  public:
   struct Options {
+    Load load;
     bool towardsHigherLoad = true;  // at the start
     double firstStep = 0.05;        // of the load
     // The branch ends with the first state beyond any of these.
@@ -38,13 +39,16 @@ class FlowBranch {
     double arcLength = 0.0;        // K, along the branch (LoadControl::lengthOf)
   };
 
-  // Collective. From a steady state of the context's load, 1. `time`: s, that residuals are told for there. All have to
-  // live as long; the state and the load become those of the last point.
+  // Collective. From a steady state, of a load of 1. `time`: s, that residuals are told for there. All have to
+  // live as long; the state and what the flow is given become those of the last point.
   FlowBranch(FlowContext& context, State& state, VelocityScheme scheme, std::vector<Operator*> operators, double time,
              Options options);
 
   // Collective. `onPoint` sees each state, the first as well, and whether the branch is to end with it.
   void follow(const std::function<bool(const Point&)>& onPoint);
+
+  // Collective. What the flow is given becomes that of a load of one again, the state's pressure too.
+  void unload() { control_.setLoad(state_, 1.0); }
 
   [[nodiscard]] const std::vector<Point>& points() const { return points_; }
   [[nodiscard]] const std::vector<TurningPoint>& turningPoints() const { return turns_; }
@@ -77,6 +81,7 @@ class FlowBranch {
   Options options_;
   LoadControl control_;
   double step_;                         // of the load before the second state, then K
+  bool isUnknown_ = false;              // whether the last state was found with the load as an unknown
   int failed_ = 0;                      // iterations of steps that have found nothing, since the last state
   std::optional<State> last_, before_;  // states; before_: none yet behind the first
   std::vector<Point> points_;

@@ -22,6 +22,7 @@ constexpr double gasReduction = 0.1;    // of the linear system's residual
 constexpr int mostGasIterations = 60;
 // The same where the load is an unknown, which is a ratio of what two systems give.
 constexpr double loadedReduction = 0.02;
+constexpr double smallRise = 1e-4;  // of the load, for differences
 
 }  // namespace
 
@@ -56,25 +57,28 @@ GasUpdate::GasUpdate(const FlowContext& context, const State& state, std::vector
   change_.resize(static_cast<std::size_t>(context.mesh.cells) * width);
 }
 
-// What is left of the equations of the species, and of that of the temperature,
+// Of the species, and of the temperature,
 //   rho cp DT/Dt = (enthalpy's) - sum over the species of h_k (theirs),
-// divided by cp; and their derivatives by all that acts in the cell.
-void GasUpdate::assembleBlock(const State& state, const FlowResidual& residual, int cell) {
-  const auto c = static_cast<std::size_t>(cell);
-  const std::size_t width = n_ + 1;
+// divided by cp.
+void GasUpdate::findLeft(const State& state, const FlowResidual& residual, std::size_t c, double* right) {
   const FlowResidual::Rates& rates = residual.rates();
-  const double T = state.temperature[c], V = context_.mesh.volume[c];
-  context_.thermo.speciesEnthalpies(T, enthalpies_);
-  context_.thermo.speciesCp(T, capacities_);
-  const double capacity = residual.properties().heatCapacity[c];
-  double* right = &right_[c * width];
+  context_.thermo.speciesEnthalpies(state.temperature[c], enthalpies_);
   double heat = rates.enthalpy[c] - state.enthalpy[c] * rates.mass[c];
   for (std::size_t k = 0; k < n_; ++k) {
     right[k] = rates.species[c * n_ + k] - state.Y[c * n_ + k] * rates.mass[c];
     heat -= enthalpies_[k] * right[k];
   }
-  right[n_] = heat / (capacity * kelvins);
+  right[n_] = heat / (residual.properties().heatCapacity[c] * kelvins);
+}
 
+// What is left, and its derivatives by all that acts in the cell.
+void GasUpdate::assembleBlock(const State& state, const FlowResidual& residual, int cell) {
+  const auto c = static_cast<std::size_t>(cell);
+  const std::size_t width = n_ + 1;
+  const FlowResidual::Rates& rates = residual.rates();
+  const double V = context_.mesh.volume[c], capacity = residual.properties().heatCapacity[c];
+  findLeft(state, residual, c, &right_[c * width]);
+  context_.thermo.speciesCp(state.temperature[c], capacities_);
   rates.made.ofSpecies(c, made_);
   double* block = system_.block(cell);
   double* slopes = &slopes_[c * width * width];
@@ -140,37 +144,27 @@ double GasUpdate::take(State& state, int cell, double& largestRise) {
   return share;
 }
 
-// As the linear system has it: convection upwind of first order.
-void GasUpdate::assembleLoad(const State& state) {
-  const Mesh& m = context_.mesh;
+// By the difference of what is left where the load is a little larger.
+void GasUpdate::assembleLoad(const State& state, const LoadAsUnknown& load) {
   const std::size_t width = n_ + 1;
-  std::ranges::fill(rightOfLoad_, 0.0);
-  const auto bring = [&](int cell, double flow, const double* Y, double temperature) {
-    if (cell >= m.owned) return;
-    const auto c = static_cast<std::size_t>(cell);
-    for (std::size_t k = 0; k < n_; ++k) rightOfLoad_[c * width + k] += flow * (Y[k] - state.Y[c * n_ + k]);
-    rightOfLoad_[c * width + n_] += flow * (temperature - state.temperature[c]) / kelvins;
-  };
-  for (int face = 0; face < m.faces; ++face) {
-    const double flow = state.massFlux[face] / context_.load;
-    const auto low = static_cast<std::size_t>(m.low[face]);
-    if (m.high[face] >= 0) {
-      const auto high = static_cast<std::size_t>(m.high[face]);
-      if (flow > 0.0)
-        bring(m.high[face], flow, &state.Y[low * n_], state.temperature[low]);
-      else
-        bring(m.low[face], -flow, &state.Y[high * n_], state.temperature[high]);
-    } else if (flow < 0.0) {
-      bring(m.low[face], -flow, context_.boundaryY(face).data(), context_.boundaryTemperature(face));
-    }
+  const double present = load.control.load(), rise = smallRise * present;
+  State other = state;
+  load.control.scale(other, present + rise);
+  other.updateHalo(context_.halo);
+  load.beside.evaluate(other);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c) {
+    findLeft(other, load.beside, c, &rightOfLoad_[c * width]);
+    for (std::size_t i = c * width; i < (c + 1) * width; ++i) rightOfLoad_[i] = (rightOfLoad_[i] - right_[i]) / rise;
   }
+  load.control.setLoad(other, present);
 }
 
-double GasUpdate::addLoad(const State& state, const LoadControl& control) {
+double GasUpdate::addLoad(const State& state, const LoadAsUnknown& load) {
   rightOfLoad_.resize(right_.size());
   changeByLoad_.resize(change_.size());
-  assembleLoad(state);
+  assembleLoad(state, load);
   system_.solve(rightOfLoad_, changeByLoad_, loadedReduction, mostGasIterations);
+  const LoadControl& control = load.control;
   const auto rise = [&](const std::vector<double>& change) {
     return control.weighed([&](std::size_t cell) { return kelvins * change[cell * (n_ + 1) + n_]; });
   };
@@ -180,13 +174,13 @@ double GasUpdate::addLoad(const State& state, const LoadControl& control) {
 }
 
 GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
-                                     const LoadControl* control) {
+                                     const std::optional<LoadAsUnknown>& load) {
   const Mesh& m = context_.mesh;
   assemble(state, residual, inertia);
   Result result;
-  const double reduction = control ? loadedReduction : gasReduction;
+  const double reduction = load ? loadedReduction : gasReduction;
   result.iterations = system_.solve(right_, change_, reduction, mostGasIterations).iterations;
-  if (control) result.loadChange = addLoad(state, *control);
+  if (load) result.loadChange = addLoad(state, *load);
   inEachCell(m, [&](int cell) {
     const auto c = static_cast<std::size_t>(cell);
     shares_[c] = take(state, cell, result.largestRise);

@@ -4,6 +4,7 @@
 // the equations as they are.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,10 +42,13 @@ class GasUpdate {
   };
   // Collective. The residual is of the state; `inertia` (kg/s, owned cells): mass over the cell's pseudo-time. The
   // state has a new gas of the same pressure then, halo filled; what is carried keeps its amount per mass.
-  // With a control the load is one more unknown, by which all that flows is in proportion; it is not yet changed.
-  // NumericsError where there is none.
+  // With a load it is one more unknown; it is not yet changed. NumericsError where there is no such gas.
+  struct LoadAsUnknown {
+    LoadControl& control;
+    FlowResidual& beside;  // for states of other loads
+  };
   Result advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
-                 const LoadControl* control = nullptr);
+                 const std::optional<LoadAsUnknown>& load = {});
 
   // Of an owned cell, the share that the last advance() took of what the linear system gave.
   [[nodiscard]] std::span<const double> shares() const { return shares_; }
@@ -52,10 +56,12 @@ class GasUpdate {
  private:
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
   void assembleBlock(const State& state, const FlowResidual& residual, int cell);
+  // kg/s and, of the temperature, over its unit: what is left of the equations of a cell; `right`: n + 1 numbers.
+  void findLeft(const State& state, const FlowResidual& residual, std::size_t cell, double* right);
   // What a load that is larger by one brings into the cells: the right side for the answer of the gas to it.
-  void assembleLoad(const State& state);
+  void assembleLoad(const State& state, const LoadAsUnknown& load);
   // Changes also the load so that its condition holds for the change of all cells; the change of the load.
-  double addLoad(const State& state, const LoadControl& control);
+  double addLoad(const State& state, const LoadAsUnknown& load);
   // The share of the change that was taken.
   double take(State& state, int cell, double& largestRise);
 

@@ -48,6 +48,7 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       inertia_(static_cast<std::size_t>(context.mesh.owned)),
       carriedInertia_(inertia_.size()),
       haste_(inertia_.size(), 1.0) {
+  if (control_) beside_.emplace(context, state, options.scheme, operators_);
   if (!state.scalars.empty()) carried_.emplace(context, state, residual_, operators_);
   residual_.evaluate(state);
   measure_ = measure(state);
@@ -202,7 +203,7 @@ void SteadyIteration::accelerate(State& state) {
     squares.push_back(0.0);  // follows from the temperatures
   }
   mixing_.mix(before, found, squares);
-  if (control_) control_->setLoad(found.back());
+  if (control_) control_->setLoad(state, found.back());
   auto from = found.cbegin();
   for (std::vector<double>* field :
        {&state.Y, &state.temperature, &state.velocity, &state.swirl, &state.pressure, &state.massFlux}) {
@@ -230,7 +231,9 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
   const double last = measure_;
   try {
     setInertia(state);
-    const GasUpdate::Result gas = gas_.advance(state, residual_, inertia_, control_);
+    std::optional<GasUpdate::LoadAsUnknown> load;
+    if (control_) load.emplace(*control_, *beside_);
+    const GasUpdate::Result gas = gas_.advance(state, residual_, inertia_, load);
     if (control_) control_->scale(state, control_->load() + gas.loadChange);
     keepMass(state, massOf(*before_));
     outcome.gasIterations = gas.iterations;
@@ -276,7 +279,7 @@ SteadyIteration::Outcome SteadyIteration::iterate(State& state) {
   Outcome outcome = attempt(state);
   if (outcome.taken) return outcome;
   state = *before_;
-  if (control_) control_->setLoad(loadBefore_);
+  if (control_) control_->setLoad(state, loadBefore_);
   mixing_.clear();
   isAnew_ = true;
   courant_ = std::max(courant_ * afterFailure, leastCourant);

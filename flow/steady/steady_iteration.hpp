@@ -82,6 +82,7 @@ class SteadyIteration {
   std::vector<Operator*> operators_;
   LoadControl* control_;
   FlowResidual residual_;
+  std::optional<FlowResidual> beside_;  // of other loads, where there is a control
   GasUpdate gas_;
   std::optional<CarriedUpdate> carried_;  // where the flow carries something
   FlowUpdate flow_;

@@ -234,7 +234,14 @@ TEST(SteadyMode, FollowsABranchAndKeepsTheStateThatWasFound) {
   EXPECT_TRUE(a.numbers("/continuation/turning_points/load").empty());
   EXPECT_THAT(followed.resultsJson, AllOf(HasSubstr("\"branch\": "), HasSubstr("\"reason\": \"4 points\"")));
   EXPECT_TRUE(std::filesystem::exists(scratch.path() / "branch/branch.csv"));
-  // At the load of the second state, by itself.
+  // At the load of the second state, by itself; the same by the key of the only inlet.
+  const std::string ofKey =
+      "time.steady.continuation={first_step: 0.2, maximum_points: 2, key: boundaries.in.velocity}";
+  runChannel(scratch.path() / "key", {steady, ofKey, boundaries});
+  const Hdf5Reader key(scratch.path() / "key/results.h5");
+  EXPECT_NEAR(key.numbers("/continuation/value")[1], 0.36, 1e-12);
+  EXPECT_NEAR(key.numbers("/continuation/maximum_temperature")[1], a.numbers("/continuation/maximum_temperature")[1],
+              1e-3);
   runChannel(scratch.path() / "second", {steady, "boundaries.in.velocity=36 cm/s"});
   const Hdf5Reader second(scratch.path() / "second/results.h5");
   EXPECT_NEAR(a.numbers("/continuation/maximum_temperature")[1], std::ranges::max(lastOf(second, "temperature")), 1e-4);
@@ -395,6 +402,14 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"ABranchThatEndsBeforeItBegins",
                 {"time.steady.continuation.highest_load=0.5"},
                 "time.steady.continuation: the branch begins with a load of one"},
+        Refused{"ABranchOfNoBoundary",
+                {"time.steady.continuation.key=boundaries.inn.velocity"},
+                "there is no boundary 'inn'; did you mean 'in'?"},
+        Refused{"ABranchOfAnOutletsGas",
+                {"time.steady.continuation.key=boundaries.out.temperature"},
+                "'out' is no inlet, nor a wall that has a temperature"},
+        Refused{
+            "ABranchOfTheMesh", {"time.steady.continuation.key=mesh.refinement"}, "expected 'pressure', or a value"},
         Refused{"Ensembles", {"stochastic.exchange=one_way"}, "time.mode: ensembles in the cells fluctuate"},
         Refused{"AVesselThatIsFilled", {closed}, "time.mode: a vessel without an outlet"},
         Refused{"AVesselThatIsCooled", {closed, noInlet, "boundaries.cold.temperature=299 K"}, "a vessel without"},

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+
 #include "flow/models/reaction_operator.hpp"
 #include "flow/steady/residual_norms.hpp"
 #include "flow/stepping/transport_operator.hpp"
@@ -55,12 +58,12 @@ class BranchOfCounterflow : public testing::Test {
 };
 
 TEST_F(BranchOfCounterflow, GoesRoundTheLoadAtWhichTheFlameGoesOut) {
-  constexpr double residual = 1e-5;
+  constexpr double residual = 1e-6;
   transport.initialise(state, 1e-6);
   ASSERT_LE(settle(residual), residual);
   const State first = state;
   FlowBranch branch(box.context, state, VelocityScheme::Limited, operators, passage,
-                    {.firstStep = 0.15, .turningPoints = 1, .residual = residual});
+                    {.load = {}, .firstStep = 0.15, .turningPoints = 1, .residual = residual});
   std::optional<State> second;
   branch.follow([&](const FlowBranch::Point& point) {
     report(fmt::format("load {:.5f}, {:.2f} K, {} iterations", point.load, point.peakTemperature, point.iterations));
@@ -87,15 +90,67 @@ TEST_F(BranchOfCounterflow, GoesRoundTheLoadAtWhichTheFlameGoesOut) {
   // What is found with the load as an unknown is what is found at that load.
   ASSERT_TRUE(second);
   state = first;
-  LoadControl(box.context).scale(state, points[2].load);
+  LoadControl(box.context, state).scale(state, points[2].load);
   EXPECT_LE(settle(residual), residual);
   EXPECT_NEAR(hottest(), points[2].peakTemperature, 0.01);
   // A little beyond the largest load nothing burns.
   state = first;
   box.context.load = 1.0;
-  LoadControl(box.context).scale(state, 1.05 * turn.load);
+  LoadControl(box.context, state).scale(state, 1.05 * turn.load);
   settle(residual, 60);
   EXPECT_LT(hottest(), 800.0);
+}
+
+// What is followed in pressure, or in what comes in, is what is found where that is given from the beginning.
+TEST_F(BranchOfCounterflow, FollowsPressureAndWhatComesIn) {
+  constexpr double residual = 1e-6;
+  transport.initialise(state, 1e-6);
+  ASSERT_LE(settle(residual), residual);
+  const State first = state;
+  const std::size_t hydrogen = gas.mechanism.speciesIndex("H2"), inlet = 2;
+  struct Row {
+    Load load;
+    std::function<void(State&, double load)> give;
+  };
+  const auto atPatch = [&](std::size_t patch) -> BoundaryCondition& { return box.context.boundaries[patch]; };
+  const std::vector<Row> rows{
+      {{.of = Load::Of::Pressure}, [&](State& s, double load) { s.thermodynamicPressure *= load; }},
+      {{.of = Load::Of::Temperature, .boundary = inlet + 1},
+       [&](State&, double load) { atPatch(inlet + 1).temperature = 300.0 * load; }},
+      {{.of = Load::Of::MoleFraction, .boundary = inlet, .species = hydrogen},
+       [&](State&, double load) {
+         atPatch(inlet).Y = gas.massFractions(fmt::format("H2: {:.17g}, N2: {:.17g}", 0.25 * load, 1.0 - 0.25 * load));
+       }},
+      {{.of = Load::Of::Velocity, .boundary = inlet}, [&](State&, double load) { atPatch(inlet).speed *= load; }}};
+  const std::vector<BoundaryCondition> given = box.context.boundaries;
+  for (const Row& row : rows) {
+    SCOPED_TRACE(static_cast<int>(row.load.of));
+    state = first;
+    FlowBranch branch(box.context, state, VelocityScheme::Limited, operators, passage,
+                      {.load = row.load, .firstStep = 0.05, .highestLoad = 1.08, .points = 6, .residual = residual});
+    branch.follow([](const FlowBranch::Point&) { return false; });
+    ASSERT_GT(branch.points().size(), 2U) << branch.reason();
+    const FlowBranch::Point last = branch.points().back();
+    EXPECT_GT(last.load, 1.08);
+    branch.unload();
+    EXPECT_EQ(box.context.load, 1.0);
+    for (std::size_t b = 0; b < given.size(); ++b) {
+      EXPECT_EQ(box.context.boundaries[b].temperature, given[b].temperature);
+      for (std::size_t k = 0; k < given[b].Y.size(); ++k)
+        EXPECT_NEAR(box.context.boundaries[b].Y[k], given[b].Y[k], 1e-15);
+    }
+    EXPECT_EQ(state.thermodynamicPressure, first.thermodynamicPressure);
+    state = first;
+    row.give(state, last.load);
+    for (std::size_t c = 0; c < state.density.size(); ++c)
+      state.density[c] *= state.thermodynamicPressure / first.thermodynamicPressure;
+    EXPECT_LE(settle(residual), residual);
+    report(fmt::format("load {:.4f}: {:.3f} K, by itself {:.3f} K, at 1 {:.2f} K", last.load, last.peakTemperature,
+                       hottest(), branch.points()[0].peakTemperature));
+    EXPECT_NEAR(hottest(), last.peakTemperature, 0.01);
+    EXPECT_GT(std::abs(hottest() - branch.points()[0].peakTemperature), 1.0);
+    box.context.boundaries = given;
+  }
 }
 
 // In one change of the gas, as far as no cell is limited.
@@ -112,11 +167,12 @@ TEST_F(BranchOfCounterflow, ChangesTheLoadSoThatItsConditionHolds) {
     along[c] = 300.0 - state.temperature[c];
     from[c] = state.temperature[c] * (1.0 - 2e-3 * std::sin(2000.0 * box.mesh.centre[c][1]));
   }
-  LoadControl control(box.context);
+  LoadControl control(box.context, state);
   control.require(from, along, 2.0);
   EXPECT_GT(std::abs(control.left(state)), 0.1);
   GasUpdate gasUpdate(box.context, state, operators);
-  const GasUpdate::Result result = gasUpdate.advance(state, residual, inertia, &control);
+  FlowResidual beside(box.context, state, VelocityScheme::Limited, operators);
+  const GasUpdate::Result result = gasUpdate.advance(state, residual, inertia, {{control, beside}});
   EXPECT_EQ(result.limited, 0);
   EXPECT_LT(std::abs(result.loadChange), 0.099);
   EXPECT_GT(result.loadChange, 0.0) << "a larger load cools";
@@ -134,7 +190,7 @@ TEST_F(BranchOfCounterflow, EndsWhereItIsToldTo) {
   transport.initialise(state, 1e-6);
   ASSERT_LE(settle(1e-5), 1e-5);
   FlowBranch branch(box.context, state, VelocityScheme::Limited, operators, passage,
-                    {.towardsHigherLoad = false, .firstStep = 0.25, .lowestLoad = 0.9, .residual = 1e-5});
+                    {.load = {}, .towardsHigherLoad = false, .firstStep = 0.25, .lowestLoad = 0.9, .residual = 1e-5});
   branch.follow([](const FlowBranch::Point&) { return false; });
   EXPECT_EQ(branch.reason(), "the end of the range of the load");
   ASSERT_EQ(branch.points().size(), 2U);

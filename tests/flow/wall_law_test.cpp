@@ -40,6 +40,28 @@ TEST(WallLaw, LayersMeetAndNumbersAreThoseOfTheFormulas) {
 }
 
 // In the logarithmic layer at k = u^2/C_mu^(1/2) production is dissipation, u^3/(kappa y), and friction rho u^2.
+// A cell's energy would else go to and fro between the layers, which have not the same rates where they meet.
+TEST(WallLaw, OneLayerPassesIntoTheOtherWithoutAJump) {
+  constexpr double viscosity = 1.5e-5, distance = 1e-3, velocity = 8.0;
+  const auto of = [&](double yStar) {
+    const double friction = yStar * viscosity / distance;
+    return walllaw::layer(friction * friction / std::sqrt(walllaw::cMu), velocity, viscosity, distance);
+  };
+  walllaw::Layer last = of(5.0);
+  EXPECT_EQ(last.production, 0.0);
+  for (double yStar = 5.0; yStar < 30.0; yStar *= 1.001) {
+    const walllaw::Layer now = of(yStar);
+    EXPECT_LT(now.dissipation, 1.02 * last.dissipation + 1e-12) << yStar;
+    EXPECT_GE(now.dissipation, last.dissipation) << yStar;
+    EXPECT_LT(now.production - last.production, 0.01 * of(30.0).production) << yStar;
+    last = now;
+  }
+  // Each by itself from half an octave on.
+  EXPECT_EQ(walllaw::logarithmicShare(walllaw::meeting / 1.4143), 0.0);
+  EXPECT_EQ(walllaw::logarithmicShare(walllaw::meeting * 1.4143), 1.0);
+  EXPECT_NEAR(walllaw::logarithmicShare(walllaw::meeting), 0.5, 1e-12);
+}
+
 TEST(WallLaw, ALogarithmicLayerIsInBalance) {
   const double u = 0.7, nu = 1.5e-5, y = 60.0 * nu / u, speed = u * std::log(9.8 * 60.0) / 0.41;
   const walllaw::Layer layer = walllaw::layer(u * u / 0.3, speed, nu, y);

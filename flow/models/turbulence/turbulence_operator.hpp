@@ -94,6 +94,7 @@ class TurbulenceOperator : public Operator {
   // Walls for whose layers the law of the wall stands, and of the owned cells beside them what it makes there, and
   // area.
   std::vector<int> layerFaces_;
+  std::vector<double> dissipationBeside_;  // of the law where k is a little larger
   std::vector<walllaw::Layer> layers_;
   std::vector<double> layerArea_;
   struct {

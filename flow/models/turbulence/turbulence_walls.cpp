@@ -35,21 +35,27 @@ void TurbulenceOperator::findLayers() {
     if (isSticky(face) && m.area[face] > 0.0) layerFaces_.push_back(face);
   layers_.resize(cells_.size());
   layerArea_.resize(cells_.size());
+  dissipationBeside_.resize(cells_.size());
   for (const int face : layerFaces_) layerArea_[static_cast<std::size_t>(m.low[face])] += m.area[face];
 }
 
 // In place of the model's rates in the cells beside walls. Of several walls each has its share by area. The dissipation
-// is held at the law's by a rate much faster than what else changes it, which leaves it that share wrong.
+// is held at the law's by a rate much faster than what else changes it, which leaves it that share wrong. It goes with
+// a power of k, which is between one and 3/2 in either layer, and more where one passes into the other: by its tangent.
 void TurbulenceOperator::applyWallLaw(const State& state) {
   constexpr std::size_t energy = 0, dissipation = 1;
-  constexpr double faster = 1e4;
+  constexpr double faster = 1e4, small = 1e-6;
   const Mesh& m = context_.mesh;
   std::ranges::fill(layers_, walllaw::Layer{});
+  std::ranges::fill(dissipationBeside_, 0.0);
   for (const int face : layerFaces_) {
     const auto c = static_cast<std::size_t>(m.low[face]);
     const double share = m.area[face] / layerArea_[c];
-    const walllaw::Layer of = walllaw::layer(cells_[c].values[energy], strainAtWall(face, state) * m.distance[face],
-                                             cells_[c].viscosity, m.distance[face]);
+    const auto layerOf = [&, y = m.distance[face], velocity = strainAtWall(face, state) * m.distance[face]](double k) {
+      return walllaw::layer(k, velocity, cells_[c].viscosity, y);
+    };
+    const walllaw::Layer of = layerOf(cells_[c].values[energy]);
+    dissipationBeside_[c] += share * layerOf((1.0 + small) * cells_[c].values[energy]).dissipation;
     layers_[c].production += share * of.production;
     layers_[c].dissipation += share * of.dissipation;
   }
@@ -58,14 +64,14 @@ void TurbulenceOperator::applyWallLaw(const State& state) {
     if (!(layerArea_[c] > 0.0) || !(k > 0.0)) continue;
     const double lost = layers_[c].dissipation, rate = lost / k;
     TurbulentRates& rates = rates_[c];
-    // The dissipation goes with k^(3/2), by its tangent.
-    rates.source[energy] = layers_[c].production + 0.5 * lost;
-    rates.sink[energy] = 1.5 * rate;
+    const double power = std::max((dissipationBeside_[c] / lost - 1.0) / small, 1.0);
+    rates.source[energy] = layers_[c].production + (power - 1.0) * lost;
+    rates.sink[energy] = power * rate;
     rates.add(energy, -2.0 / 3.0 * k * cells_[c].dilatation, k);
     rates.source[dissipation] = faster * rate * lost;
     rates.sink[dissipation] = faster * rate;
     slopes_[c] = {};
-    slopes_[c][dissipation][energy] = 1.5 * faster * rate * rate;
+    slopes_[c][dissipation][energy] = power * faster * rate * rate;
   }
 }
 
