@@ -37,11 +37,19 @@ struct CarriedScalar {
   double negligible = 0.0;
 };
 
+// How gas meets walls whose layers are not resolved, by the turbulent energy beside them (wall_law.hpp). None: they are
+// resolved.
+enum class WallLaw : char {
+  None,
+  TwoLayers,  // viscous or logarithmic
+  Blended,    // both, for cells of any thickness
+};
+
 struct ScalarBlock {
   std::string owner;
   std::vector<CarriedScalar> scalars;
-  bool givesEddies = false;  // its owner sets State::eddyViscosity
-  bool hasWallLaw = false;   // its first scalar is the turbulent energy by which gas meets walls (wall_law.hpp)
+  bool givesEddies = false;         // its owner sets State::eddyViscosity
+  WallLaw wallLaw = WallLaw::None;  // not None: its first scalar is the turbulent energy
 };
 
 // Where the block of an owner stands among all carried scalars.

@@ -13,7 +13,10 @@ State::State(const Mesh& mesh, std::size_t speciesCount, const std::vector<Scala
     if (std::ranges::find(blocks, block.owner, &ScalarRange::owner) != blocks.end())
       throw std::logic_error("two blocks of carried scalars of " + block.owner);
     blocks.push_back({block.owner, carriedCount(), static_cast<int>(block.scalars.size())});
-    if (block.hasWallLaw) wallEnergy = blocks.back().first;
+    if (block.wallLaw != WallLaw::None) {
+      wallEnergy = blocks.back().first;
+      wallLaw = block.wallLaw;
+    }
     scalars.insert(scalars.end(), block.scalars.begin(), block.scalars.end());
     hasEddies = hasEddies || block.givesEddies;
   }

@@ -23,6 +23,7 @@ struct State {
   bool swirls = false;
   bool hasEddies = false;
   int wallEnergy = -1;  // which carried scalar is the turbulent energy of the law of the wall; -1: walls are resolved
+  WallLaw wallLaw = WallLaw::None;
   std::vector<ScalarRange> blocks;                                         // of carried scalars, one behind the other
   std::vector<CarriedScalar> scalars;                                      // of all blocks
   [[nodiscard]] const ScalarRange& block(const std::string& owner) const;  // std::logic_error

@@ -60,10 +60,11 @@ FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCas
 }  // namespace
 
 void addTurbulenceKeys(DeckSchema& schema) {
-  std::vector<std::string> names{"none"}, described;
+  std::vector<std::string> names{"none"}, described, ofOmega;
   for (const TurbulenceRow& row : turbulenceModels()) {
     names.emplace_back(row.name);
     described.push_back(fmt::format("{}: {}", row.name, row.description));
+    if (turbulenceModel(row.name)->wallBeta() > 0.0) ofOmega.emplace_back(row.name);
   }
   const std::vector<std::string> models(names.begin() + 1, names.end());
   schema
@@ -95,6 +96,12 @@ void addTurbulenceKeys(DeckSchema& schema) {
                "jets and other flows far from them.")
                .byDefault("walls")
                .onlyWith("turbulence.model", models))
+      .add(choiceKey("turbulence.walls", {"resolved", "automatic"},
+                     "How a model with omega meets walls. resolved: the first cell has y+ of about one or less. "
+                     "automatic: by both layers of the law of the wall at once, for cells of any thickness up to "
+                     "y+ 300.")
+               .byDefault("resolved")
+               .onlyWith("turbulence.model", ofOmega))
       .add(numberKey("turbulence.largest_eddy_viscosity_ratio",
                      "A run ends where the eddy viscosity over that of the molecules becomes larger.")
                .byDefault("1e5")
@@ -128,8 +135,11 @@ void addTurbulenceKeys(DeckSchema& schema) {
 }
 
 void readTurbulenceModel(const Deck& deck, FlowCase& flowCase) {
-  if (const std::string name = deck.choice("turbulence.model"); name != "none")
-    flowCase.turbulence.model = turbulenceModel(name);
+  const std::string name = deck.choice("turbulence.model");
+  if (name == "none") return;
+  flowCase.turbulence.model = turbulenceModel(name);
+  if (flowCase.turbulence.model->wallBeta() > 0.0 && deck.choice("turbulence.walls") == "automatic")
+    flowCase.turbulence.model = turbulenceModel(name, true);
 }
 
 void readTurbulence(const Deck& deck, FlowCase& flowCase) {

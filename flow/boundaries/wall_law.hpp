@@ -1,6 +1,7 @@
 // The law of the wall, by which a k-epsilon model meets walls without resolving the layers beside them (Launder and
 // Spalding 1974): of the centre of the cell beside a wall, with the friction velocity u* = C_mu^(1/4) k^(1/2) of the
-// turbulent energy there and y* = u* y/nu. Heat and species by the function of Jayatilleke (1969).
+// turbulent energy there and y* = u* y/nu; for k-omega models of both layers at once, so that cells may be of any
+// thickness. Heat and species by the function of Jayatilleke (1969).
 #pragma once
 
 #include <algorithm>
@@ -62,9 +63,24 @@ inline constexpr double meeting = 11.5301;
   return at * at * (3.0 - 2.0 * at);
 }
 
+// Both layers at once, at any y* (Menter and others 2003): of the friction that each would have the root of the fourth
+// powers' sum, u+ = (1/y*^4 + 1/u_log^4)^(-1/4).
+struct Blend {
+  double friction = 1.0;  // over that of the viscous layer alone, y*/u+
+  double slope = 1.0;     // du+/dy*
+};
+[[nodiscard]] inline Blend blended(double yStar) {
+  constexpr double least = 3.0;  // below, the logarithm stays: it has no say there
+  const double logarithm = std::log(smoothness * std::max(yStar, least)) / kappa;
+  const double ratio = yStar / logarithm, sum = 1.0 + std::pow(ratio, 4);
+  const double ofLogarithm = yStar > least ? ratio / (kappa * logarithm) * std::pow(ratio, 3) : 0.0;
+  return {std::pow(sum, 0.25), (1.0 + ofLogarithm) / std::pow(sum, 1.25)};
+}
+
 // What the law makes of the cell: m^2/s^3, production and dissipation of k.
 struct Layer {
   double production = 0.0, dissipation = 0.0;
+  double frequency = 0.0, strain = 0.0;  // 1/s, omega and the shear; of the blended law alone
 };
 // `velocity`: m/s, along the wall; `viscosity`: m^2/s, kinematic; `distance`: m.
 [[nodiscard]] inline Layer layer(double energy, double velocity, double viscosity, double distance) {
@@ -74,6 +90,20 @@ struct Layer {
   const double shear = friction * velocity / walllaw::velocity(yStar);  // m^2/s^2, tau_w/rho
   const double perLength = friction / (kappa * distance);
   return {share * shear * perLength, share * friction * friction * perLength + (1.0 - share) * viscous};
+}
+
+// The same by both layers, for models with omega: 6 nu/(beta y^2) of the viscous layer and k^(1/2)/(C_mu^(1/4) kappa y)
+// of the logarithmic one, the root of their squares' sum. What the viscosity does not take of the friction the eddies
+// do, at the law's shear.
+[[nodiscard]] inline Layer blendedLayer(double energy, double velocity, double viscosity, double distance,
+                                        double beta) {
+  const double friction = frictionVelocity(energy);
+  const Blend blend = blended(friction * distance / viscosity);
+  const double strain = blend.friction * blend.slope * velocity / distance;
+  const double shear = blend.friction * viscosity * velocity / distance;  // m^2/s^2, tau_w/rho
+  const double frequency =
+      std::hypot(6.0 * viscosity / (beta * distance * distance), friction / (std::sqrt(cMu) * kappa * distance));
+  return {(1.0 - blend.slope) * shear * strain, cMu * std::max(energy, 0.0) * frequency, frequency, strain};
 }
 
 }  // namespace lampblack::flow::walllaw

@@ -81,7 +81,10 @@ void GasProperties::addWallLaw(const FlowContext& context, const State& state, i
   const double exchange = walllaw::exchange(state, cell, m.distance[face]);
   const double yStar = exchange / boundaryViscosity[b];
   const double prandtl = boundaryViscosity[b] * heatCapacity[cell] / boundaryConductivity[b];
-  if (walllaw::isLogarithmic(yStar)) effectiveBoundaryViscosity_[b] = exchange / walllaw::velocity(yStar);
+  if (state.wallLaw == WallLaw::Blended)
+    effectiveBoundaryViscosity_[b] *= walllaw::blended(yStar).friction;
+  else if (walllaw::isLogarithmic(yStar))
+    effectiveBoundaryViscosity_[b] = exchange / walllaw::velocity(yStar);
   if (yStar > 0.0)
     effectiveBoundaryConductivity_[b] =
         exchange * heatCapacity[cell] / walllaw::scalar(yStar, prandtl, context.eddies.prandtl);

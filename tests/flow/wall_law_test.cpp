@@ -74,6 +74,32 @@ TEST(WallLaw, ALogarithmicLayerIsInBalance) {
   EXPECT_EQ(walllaw::layer(0.0, speed, nu, y).dissipation, 0.0);
 }
 
+// Both layers at once: each where it rules, a slope that is the velocity's, and a logarithmic layer in balance.
+TEST(WallLaw, BothLayersAtOnceAreEachOfThemWhereItRules) {
+  const auto velocity = [](double yStar) { return yStar / walllaw::blended(yStar).friction; };
+  EXPECT_EQ(walllaw::blended(0.0).friction, 1.0);
+  EXPECT_EQ(walllaw::blended(0.0).slope, 1.0);
+  EXPECT_NEAR(velocity(1.0), 1.0, 1e-4);
+  // By a calculator: (1/30^4 + 1/13.8624^4)^(-1/4).
+  EXPECT_NEAR(velocity(30.0), 13.708747, 1e-5);
+  EXPECT_NEAR(velocity(300.0) / walllaw::velocity(300.0), 1.0, 1e-5);
+  for (const double yStar : {0.5, 2.9, 3.1, 8.0, 11.5, 20.0, 100.0}) {
+    const double by = 1e-4 * yStar, slope = (velocity(yStar + by) - velocity(yStar - by)) / (2.0 * by);
+    EXPECT_NEAR(walllaw::blended(yStar).slope / slope, 1.0, 1e-6) << yStar;
+  }
+  const double u = 0.7, nu = 1.5e-5, y = 300.0 * nu / u, speed = u * std::log(9.8 * 300.0) / 0.41, beta = 0.075;
+  const walllaw::Layer layer = walllaw::blendedLayer(u * u / 0.3, speed, nu, y, beta);
+  const double ofLogarithm = u / (0.3 * 0.41 * y), viscous = 6.0 * nu / (beta * y * y);
+  EXPECT_NEAR(layer.frequency / std::sqrt(ofLogarithm * ofLogarithm + viscous * viscous), 1.0, 1e-12);
+  EXPECT_NEAR(layer.strain / (u / (0.41 * y)), 1.0, 1e-4);
+  EXPECT_NEAR(layer.production / (u * u * u / (0.41 * y)), 1.0 - 1.0 / (0.41 * 300.0), 1e-4);
+  EXPECT_NEAR(layer.dissipation / (u * u * u / (0.41 * y)), 1.0, 1e-3);
+  const walllaw::Layer still = walllaw::blendedLayer(0.0, speed, nu, y, beta);
+  EXPECT_EQ(still.production, 0.0);
+  EXPECT_NEAR(still.strain / (speed / y), 1.0, 1e-12);
+  EXPECT_NEAR(still.frequency / viscous, 1.0, 1e-12);
+}
+
 // Warm gas that slides along a wall with a corner.
 struct Corner {
   static std::vector<Side> sides(Gas& gas) {
@@ -91,7 +117,7 @@ struct Corner {
   Gas& gas = Gas::hydrogen();
   double k = 0.5, u = 3.0, v = 1.0;
   Box box{Geometry::Planar, {uniformAxis(0.03, 3), uniformAxis(0.02, 2)}, sides(gas)};
-  std::shared_ptr<const TurbulenceModel> model = turbulenceModel("k_epsilon");
+  std::shared_ptr<const TurbulenceModel> model;
   State state =
       box.stateWith({takenByWalls({"dust", {{.name = "dust", .unit = "1", .description = ""}}}, box.context.boundaries),
                      TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
@@ -100,7 +126,8 @@ struct Corner {
                     });
   GasProperties properties;
 
-  explicit Corner(double energy) : k(energy) {
+  explicit Corner(double energy, const char* name = "k_epsilon", bool blendsLayers = false)
+      : k(energy), model(turbulenceModel(name, blendsLayers)) {
     for (int c = 0; c < box.mesh.cells; ++c) {
       state.carried[at(3 * c + 1)] = state.density[at(c)] * k;
       state.carried[at(3 * c + 2)] = state.density[at(c)] * 20.0;
@@ -223,6 +250,49 @@ TEST(WallLaw, CellsBesideWallsHaveItsRatesAndACornerThoseOfBothWalls) {
     EXPECT_NEAR(held / low.dissipation, 1.0, 1e-9);
     EXPECT_GT(rates.carriedSink[at(3 * c + 2)], 1e3 * low.dissipation / 0.5);
   }
+}
+
+// The same of a k-omega model by both layers: friction, production, omega that is held, and the shear that its eddies
+// see.
+TEST(WallLaw, AModelOfOmegaHasBothLayersAtOnce) {
+  for (const double k : {0.5, 1e-5}) {
+    SCOPED_TRACE(k);
+    Corner corner(k, "k_omega", true);
+    const Mesh& m = corner.box.mesh;
+    TurbulenceOperator turbulence(corner.box.context, corner.state, corner.model, corner.properties);
+    State::Balance rates = corner.state.balance;
+    turbulence.addRates(corner.state, rates);
+    turbulence.setDiffusivities(corner.state);
+    VelocityGradient gradient(corner.box.context);
+    gradient.setBoundary(corner.state.velocity);
+    gradient.compute(corner.state.velocity);
+    for (int c = 0; c < m.owned; ++c) {
+      const bool isLeft = m.centre[at(c)][0] < 0.01, isLow = m.centre[at(c)][1] < 0.01;
+      const double rho = corner.state.density[at(c)], nu = corner.properties.viscosity[at(c)] / rho;
+      if (!isLeft && !isLow) continue;
+      const walllaw::Layer left = walllaw::blendedLayer(k, corner.v, nu, 0.005, 0.0708),
+                           low = walllaw::blendedLayer(k, corner.u, nu, 0.005, 0.0708);
+      const double net = rates.carried[at(3 * c + 1)] / rho - rates.carriedSink[at(3 * c + 1)] * k;
+      const double held = rates.carried[at(3 * c + 2)] / rho / rates.carriedSink[at(3 * c + 2)];
+      const double ofLeft = !isLeft ? 0.0 : isLow ? 0.5 : 1.0;
+      const double produced = ofLeft * left.production + (1.0 - ofLeft) * low.production;
+      const double strain = ofLeft * left.strain + (1.0 - ofLeft) * low.strain;
+      const double expands = gradient.dilatation(c, corner.state.velocity);
+      EXPECT_NEAR(net, produced - low.dissipation - 2.0 / 3.0 * k * expands, 1e-9 * (produced + low.dissipation));
+      EXPECT_NEAR(held * held * low.frequency, 1.0, 1e-9);
+      // g as it is, 20, in the eddy viscosity: the shear's limit counts.
+      EXPECT_NEAR(corner.state.eddyViscosity[at(c)] / (rho * k / (0.875 * strain / 0.3)), 1.0, 1e-9);
+    }
+    for (int face = m.interiorFaces; face < m.faces; ++face) {
+      if (corner.box.context.boundaryOf(face).kind != BoundaryKind::Wall) continue;
+      const auto b = at(face - m.interiorFaces), c = at(m.low[at(face)]);
+      const double viscosity = corner.properties.boundaryViscosity[b], rho = corner.state.density[c];
+      const double yStar = rho * std::pow(0.09, 0.25) * std::sqrt(k) * m.distance[at(face)] / viscosity;
+      EXPECT_NEAR(corner.properties.effectiveBoundaryViscosity()[b] / viscosity / walllaw::blended(yStar).friction, 1.0,
+                  1e-10);
+    }
+  }
+  EXPECT_THROW((void)turbulenceModel("sa", true), InputError);
 }
 
 // y+ and friction that are told; walls do not hold k and epsilon.

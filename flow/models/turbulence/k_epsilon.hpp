@@ -11,7 +11,7 @@
 namespace lampblack::flow {
 
 struct KEpsilon {
-  static constexpr bool needsWallDistance = false, needsStrainGradient = false, usesWallLaw = true;
+  static constexpr bool needsWallDistance = false, needsStrainGradient = false, needsWallLaw = true;
   static constexpr double cMu = walllaw::cMu, c2 = 1.92, sigmaK = 1.0, sigmaEpsilon = 1.3;
   double c1 = 1.44;
 

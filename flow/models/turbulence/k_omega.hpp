@@ -13,7 +13,7 @@ struct KOmega {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false, is2006 = year == 2006;
   static constexpr double betaStar = 0.09, sigmaK = is2006 ? 0.6 : 0.5, sigmaOmega = 0.5, sigmaD = is2006 ? 0.125 : 0.0,
                           gamma = is2006 ? 13.0 / 25.0 : 5.0 / 9.0, beta0 = is2006 ? 0.0708 : 0.075,
-                          limit = is2006 ? 7.0 / 8.0 : 0.0;
+                          limit = is2006 ? 7.0 / 8.0 : 0.0, wallBeta = beta0;
 
   [[nodiscard]] std::string name() const { return is2006 ? "k_omega" : "k_omega1988"; }
   [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return turbulence::variablesOfKOmega(); }

@@ -11,7 +11,7 @@
 namespace lampblack::flow {
 
 struct RealizableKEpsilon {
-  static constexpr bool needsWallDistance = false, needsStrainGradient = false, usesWallLaw = true;
+  static constexpr bool needsWallDistance = false, needsStrainGradient = false, needsWallLaw = true;
   static constexpr double a0 = 4.04, c1Least = 0.43, c2 = 1.9, sigmaK = 1.0, sigmaEpsilon = 1.2;
 
   [[nodiscard]] std::string name() const { return "realizable_k_epsilon"; }

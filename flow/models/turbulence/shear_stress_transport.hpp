@@ -13,7 +13,7 @@ template <int year>
 struct ShearStressTransport {
   static constexpr bool needsWallDistance = true, needsStrainGradient = false, is2003 = year == 2003;
   static constexpr double betaStar = 0.09, a1 = 0.31, kappa = 0.41, sigmaOmega2 = 0.856, beta1 = 0.075, beta2 = 0.0828,
-                          mostProduction = is2003 ? 10.0 : 20.0, leastCross = is2003 ? 1e-10 : 1e-20;
+                          mostProduction = is2003 ? 10.0 : 20.0, leastCross = is2003 ? 1e-10 : 1e-20, wallBeta = beta1;
 
   [[nodiscard]] std::string name() const { return is2003 ? "sst" : "sst1994"; }
   [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return turbulence::variablesOfKOmega(); }

@@ -18,8 +18,8 @@ namespace lampblack::flow {
 namespace {
 
 template <class Kernel>
-std::shared_ptr<const TurbulenceModel> make() {
-  return std::make_shared<PointwiseModel<Kernel>>();
+std::shared_ptr<const TurbulenceModel> make(bool blendsLayers) {
+  return std::make_shared<PointwiseModel<Kernel>>(Kernel{}, blendsLayers);
 }
 
 const std::array rows{
@@ -41,10 +41,13 @@ std::span<const TurbulenceRow> turbulenceModels() {
   return rows;
 }
 
-std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name) {
+std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name, bool blendsLayers) {
   const auto row = std::ranges::find(rows, name, [](const TurbulenceRow& r) { return std::string_view(r.name); });
   if (row == rows.end()) throw InputError(fmt::format("there is no turbulence model '{}'", name));
-  return row->make();
+  auto model = row->make(blendsLayers);
+  if (blendsLayers && model->wallBeta() <= 0.0)
+    throw InputError(fmt::format("the turbulence model '{}' has no omega for the blended law of the wall", name));
+  return model;
 }
 
 double dampedRatio(double ratio, double c) {

@@ -15,6 +15,7 @@
 
 #include "core/mesh.hpp"
 #include "core/modules.hpp"
+#include "flow/scalar_block.hpp"
 
 namespace lampblack::flow {
 
@@ -70,27 +71,37 @@ class TurbulenceModel {
   [[nodiscard]] virtual std::vector<Variable> variables() const = 0;  // zero at walls that are resolved
   [[nodiscard]] virtual bool needsWallDistance() const = 0;
   [[nodiscard]] virtual bool needsStrainGradient() const = 0;
-  // Whether the law of the wall stands for the layers beside walls, which are then not resolved: the first variable is
-  // k, which has no slope there, the second its dissipation, which is that of the law in the cells beside them.
-  [[nodiscard]] virtual bool usesWallLaw() const { return false; }
+  // The law of the wall that stands for the layers beside walls, where they are not resolved: the first variable is k,
+  // which has no slope there, the second its dissipation, or of the blended law omega^(-1/2), which is that of the law
+  // in the cells beside them.
+  [[nodiscard]] virtual WallLaw wallLaw() const { return WallLaw::None; }
+  [[nodiscard]] bool usesWallLaw() const { return wallLaw() != WallLaw::None; }
+  // beta of omega = 6 nu/(beta y^2) beside a wall; 0: the model has no omega, and knows no blended law.
+  [[nodiscard]] virtual double wallBeta() const { return 0.0; }
   // Its first variable is k then.
   [[nodiscard]] bool knowsEnergy() const { return variables().size() > 1; }
   [[nodiscard]] virtual std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const = 0;
   virtual void evaluate(std::span<const TurbulentCell> cells, std::span<TurbulentRates> rates) const = 0;
 };
 
-// A model of what is known of one cell.
+// A model of what is known of one cell. `blendsLayers`: it has the blended law of the wall, as it can with a
+// `wallBeta`.
 template <class Kernel>
 class PointwiseModel : public TurbulenceModel {
  public:
-  explicit PointwiseModel(Kernel kernel = {}) : kernel_(kernel) {}
+  explicit PointwiseModel(Kernel kernel = {}, bool blendsLayers = false)
+      : kernel_(kernel), blendsLayers_(blendsLayers) {}
   [[nodiscard]] std::string name() const override { return kernel_.name(); }
   [[nodiscard]] std::vector<Variable> variables() const override { return kernel_.variables(); }
   [[nodiscard]] bool needsWallDistance() const override { return Kernel::needsWallDistance; }
   [[nodiscard]] bool needsStrainGradient() const override { return Kernel::needsStrainGradient; }
-  [[nodiscard]] bool usesWallLaw() const override {
-    if constexpr (requires { Kernel::usesWallLaw; }) return Kernel::usesWallLaw;
-    return false;
+  [[nodiscard]] WallLaw wallLaw() const override {
+    if constexpr (requires { Kernel::needsWallLaw; }) return WallLaw::TwoLayers;
+    return blendsLayers_ ? WallLaw::Blended : WallLaw::None;
+  }
+  [[nodiscard]] double wallBeta() const override {
+    if constexpr (requires { Kernel::wallBeta; }) return Kernel::wallBeta;
+    return 0.0;
   }
   [[nodiscard]] std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const override {
     return kernel_.freeStream(stream);
@@ -101,16 +112,17 @@ class PointwiseModel : public TurbulenceModel {
 
  private:
   Kernel kernel_;
+  bool blendsLayers_;
 };
 
 struct TurbulenceRow {
   const char* name;  // in decks
   const char* description;
-  std::shared_ptr<const TurbulenceModel> (*make)();
+  std::shared_ptr<const TurbulenceModel> (*make)(bool blendsLayers);
 };
 [[nodiscard]] std::span<const TurbulenceRow> turbulenceModels();
-// InputError for a name that no row has.
-[[nodiscard]] std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name);
+// InputError for a name that no row has, and for the blended law of a model without omega.
+[[nodiscard]] std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name, bool blendsLayers = false);
 
 // The root X of X^4 / (X^3 + c^3) = ratio: of models whose eddy viscosity is X nu f with f = X^3/(X^3 + c^3).
 [[nodiscard]] double dampedRatio(double ratio, double c);

@@ -19,7 +19,7 @@ constexpr double mostRise = 3.0;
 
 ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std::vector<BoundaryCondition>& conditions,
                                         const std::vector<FreeStream>& boundaries) {
-  ScalarBlock block{.owner = owner, .scalars = {}, .givesEddies = true, .hasWallLaw = model.usesWallLaw()};
+  ScalarBlock block{.owner = owner, .scalars = {}, .givesEddies = true, .wallLaw = model.wallLaw()};
   for (const TurbulenceModel::Variable& variable : model.variables())
     block.scalars.push_back({.name = variable.name,
                              .unit = variable.unit,
@@ -177,9 +177,10 @@ void TurbulenceOperator::evaluate(const State& state) {
   }
   findShear();
   if (model_->needsStrainGradient()) addStrainGradient(state);
+  if (model_->usesWallLaw()) findWallLaw(state);
   model_->evaluate(cells_, rates_);
   linearise();
-  if (model_->usesWallLaw()) applyWallLaw(state);
+  if (model_->usesWallLaw()) applyWallLaw();
 }
 
 // Sinks become what a rate falls by as its own variable rises, where that is more; the rates stay what they are. The

@@ -70,7 +70,8 @@ class TurbulenceOperator : public Operator {
   void evaluate(const State& state);
   void linearise();
   void findLayers();
-  void applyWallLaw(const State& state);
+  void findWallLaw(const State& state);
+  void applyWallLaw();
   void storeDiffusivities(State& state) const;
   [[nodiscard]] std::array<double, 2> range() const;  // of y+, that the model is for
   void findShear();

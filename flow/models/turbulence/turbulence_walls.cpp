@@ -11,6 +11,11 @@
 #include "flow/models/turbulence/turbulence_operator.hpp"
 
 namespace lampblack::flow {
+namespace {
+
+constexpr double littleMore = 1e-6;  // of k, for the tangent of its dissipation
+
+}  // namespace
 
 bool TurbulenceOperator::isSticky(int face) const {
   return context_.boundaryOf(face).isNoSlipWall();
@@ -39,39 +44,56 @@ void TurbulenceOperator::findLayers() {
   for (const int face : layerFaces_) layerArea_[static_cast<std::size_t>(m.low[face])] += m.area[face];
 }
 
-// In place of the model's rates in the cells beside walls. Of several walls each has its share by area. The dissipation
-// is held at the law's by a rate much faster than what else changes it, which leaves it that share wrong. It goes with
-// a power of k, which is between one and 3/2 in either layer, and more where one passes into the other: by its tangent.
-void TurbulenceOperator::applyWallLaw(const State& state) {
-  constexpr std::size_t energy = 0, dissipation = 1;
-  constexpr double faster = 1e4, small = 1e-6;
+// What the law makes of the cells beside walls; of several walls each has its share by area. By the blended law the
+// shear there is the law's, too: differences know nothing of it.
+void TurbulenceOperator::findWallLaw(const State& state) {
   const Mesh& m = context_.mesh;
+  const bool isBlended = model_->wallLaw() == WallLaw::Blended;
   std::ranges::fill(layers_, walllaw::Layer{});
   std::ranges::fill(dissipationBeside_, 0.0);
   for (const int face : layerFaces_) {
     const auto c = static_cast<std::size_t>(m.low[face]);
-    const double share = m.area[face] / layerArea_[c];
-    const auto layerOf = [&, y = m.distance[face], velocity = strainAtWall(face, state) * m.distance[face]](double k) {
-      return walllaw::layer(k, velocity, cells_[c].viscosity, y);
-    };
-    const walllaw::Layer of = layerOf(cells_[c].values[energy]);
-    dissipationBeside_[c] += share * layerOf((1.0 + small) * cells_[c].values[energy]).dissipation;
+    const double share = m.area[face] / layerArea_[c], distance = m.distance[face];
+    const double energy = cells_[c].values[0], velocity = strainAtWall(face, state) * distance;
+    const double viscosity = cells_[c].viscosity;
+    const walllaw::Layer of = isBlended
+                                  ? walllaw::blendedLayer(energy, velocity, viscosity, distance, model_->wallBeta())
+                                  : walllaw::layer(energy, velocity, viscosity, distance);
+    if (!isBlended)
+      dissipationBeside_[c] +=
+          share * walllaw::layer((1.0 + littleMore) * energy, velocity, viscosity, distance).dissipation;
     layers_[c].production += share * of.production;
     layers_[c].dissipation += share * of.dissipation;
+    layers_[c].frequency += share * of.frequency;
+    layers_[c].strain += share * of.strain;
   }
+  if (!isBlended) return;
+  for (std::size_t c = 0; c < cells_.size(); ++c)
+    if (layerArea_[c] > 0.0) cells_[c].strain = cells_[c].vorticity = layers_[c].strain;
+}
+
+// In place of the model's rates in the cells beside walls. The dissipation, or omega, is held at the law's by a rate
+// much faster than what else changes it, which leaves it that share wrong. The dissipation of k goes with a power of k,
+// 3/2, or in the law of two layers between one and 3/2, and more where one passes into the other: by its tangent.
+void TurbulenceOperator::applyWallLaw() {
+  constexpr std::size_t energy = 0, second = 1;
+  constexpr double faster = 1e4;
+  const bool isBlended = model_->wallLaw() == WallLaw::Blended;
   for (std::size_t c = 0; c < rates_.size(); ++c) {
     const double k = cells_[c].values[energy];
-    if (!(layerArea_[c] > 0.0) || !(k > 0.0)) continue;
-    const double lost = layers_[c].dissipation, rate = lost / k;
+    if (!(layerArea_[c] > 0.0) || (!isBlended && !(k > 0.0))) continue;
+    const double lost = layers_[c].dissipation;
+    const double rate = isBlended ? walllaw::cMu * layers_[c].frequency : lost / k;
+    const double held = isBlended ? 1.0 / std::sqrt(layers_[c].frequency) : lost;
     TurbulentRates& rates = rates_[c];
-    const double power = std::max((dissipationBeside_[c] / lost - 1.0) / small, 1.0);
+    const double power = isBlended ? 1.5 : std::max((dissipationBeside_[c] / lost - 1.0) / littleMore, 1.0);
     rates.source[energy] = layers_[c].production + (power - 1.0) * lost;
     rates.sink[energy] = power * rate;
     rates.add(energy, -2.0 / 3.0 * k * cells_[c].dilatation, k);
-    rates.source[dissipation] = faster * rate * lost;
-    rates.sink[dissipation] = faster * rate;
+    rates.source[second] = faster * rate * held;
+    rates.sink[second] = faster * rate;
     slopes_[c] = {};
-    slopes_[c][dissipation][energy] = power * faster * rate * rate;
+    if (!isBlended) slopes_[c][second][energy] = power * faster * rate * rate;
   }
 }
 
@@ -149,23 +171,31 @@ void TurbulenceOperator::checkResult() const {
 }
 
 std::array<double, 2> TurbulenceOperator::range() const {
-  if (model_->usesWallLaw()) return {30.0, 300.0};
-  return {0.0, 5.0};
+  switch (model_->wallLaw()) {
+    case WallLaw::TwoLayers:
+      return {30.0, 300.0};
+    case WallLaw::Blended:
+      return {0.0, 300.0};
+    default:
+      return {0.0, 5.0};
+  }
 }
 
 std::string TurbulenceOperator::warning() const {
   constexpr double smallest = 0.01;
   if (!(told_.outside > smallest)) return {};
   const auto [least, most] = range();
-  const std::string expected = model_->usesWallLaw()
-                                   ? fmt::format(
-                                         "the law of the wall, by which '{}' meets walls, holds from {:g} to {:g} and "
-                                         "below {:.1f} has no turbulence beside the wall",
-                                         model_->name(), least, most, walllaw::meeting)
-                                   : fmt::format(
-                                         "'{}', which resolves the layer beside walls, needs less than {:g} and better "
-                                         "1",
-                                         model_->name(), most);
+  const std::string expected =
+      model_->wallLaw() == WallLaw::Blended
+          ? fmt::format("the law of the wall, by which '{}' meets walls, holds up to {:g}", model_->name(), most)
+      : model_->usesWallLaw() ? fmt::format(
+                                    "the law of the wall, by which '{}' meets walls, holds from {:g} to {:g} and "
+                                    "below {:.1f} has no turbulence beside the wall",
+                                    model_->name(), least, most, walllaw::meeting)
+                              : fmt::format(
+                                    "'{}', which resolves the layer beside walls, needs less than {:g} and better "
+                                    "1",
+                                    model_->name(), most);
   return fmt::format(
       "y+ of the cells beside walls is {:.3g} to {:.3g}, and on {:.0f} % of the walls' area out of what "
       "the turbulence model is for: {}",
