@@ -163,6 +163,36 @@ output: {boundaries: [wall]}
   }
 }
 
+// The same by a k-omega model and both layers of the law of the wall at once, cells of y+ 100: the wall takes what drives
+// the gas, and the velocity beyond the first cell is that of resolved walls (cases/flow/turbulent_channel).
+TEST(SteadyModeLong, AModelOfOmegaMeetsWallsByBothLayers) {
+  const test::SharedScratchFolder scratch;
+  test::runFlow(test::flowDeck("perfect_gas_1.yaml", R"(
+transport:
+  model: unity_lewis
+  sutherland: {viscosity: 1.68e-5 Pa s, temperature: 273 K, constant: 110.5 K, prandtl_number: 0.71}
+turbulence: {model: sst, walls: automatic, eddy_viscosity_ratio: 30, energy: 0.8 m^2/s^2}
+mesh: {geometry: planar, x: [{to: 6 m, cells: 3}], y: [{to: 5 cm, cells: 10}]}
+boundaries:
+  left: {type: periodic, side: x-min}
+  right: {type: periodic, side: x-max}
+  wall: {type: wall, side: y-min, temperature: 300 K}
+  middle: {type: symmetry, side: y-max}
+driving_acceleration: {x: 8.10175 m/s^2}
+initial: {layer: none, composition: "GAS: 1", temperature: 300 K, formula: {velocity_x: "15.2*(y/0.05)^0.125"}}
+output: {boundaries: [wall]}
+)",
+                               {steady, "time.first_step=1 ms", "time.maximum_step=1 ms"}),
+                scratch.path() / "found");
+  const Hdf5Reader found(scratch.path() / "found/results.h5");
+  const std::vector<double> velocity = lastOf(found, "velocity");
+  const double friction = std::sqrt(8.10175 * 0.05), shear = lastOf(found, "density").front() * friction * friction;
+  EXPECT_NEAR(found.numbers("/walls/wall/friction_x").back() / shear, 1.0, 1e-6);
+  EXPECT_NEAR(found.numbers("/walls/wall/y_plus").back(), 100.15, 0.01);
+  // Of the table sst: half way to the middle, y+ 1001.5, between two cells' centres.
+  EXPECT_NEAR(0.5 * (velocity[3 * 12] + velocity[3 * 15]) / friction, 22.382, 0.015 * 22.382);
+}
+
 TEST(SteadyMode, WhereNothingIsFoundTheStateIsKeptToGoOnFrom) {
   const test::SharedScratchFolder scratch;
   const auto out = scratch.path() / "out";

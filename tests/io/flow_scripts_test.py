@@ -1,5 +1,5 @@
 """What scripts/mesh_to_gmsh writes of a run's box, and what scripts/compare_flows says of two runs, scripts/compare_santoro,
-compare_turbulent_step and compare_round_jet of one, on results written here."""
+compare_turbulent_step, compare_wall_friction and compare_round_jet of some, on results written here."""
 
 import json
 import pathlib
@@ -161,6 +161,42 @@ def check_turbulent_step(folder):
     assert code == 2 and "nowhere" in err, err
 
 
+def check_wall_friction(folder):
+    """Friction over a bump that falls along the wall, on three meshes whose errors fall by four; a pressure that is CFL3D's and 0.01."""
+    speed, start = 47.0, 10.0
+    with open(ROOT / "cases/flow/turbulent_bump/reference/bump_cp_x.csv", encoding="utf-8") as file:
+        rows = [line.split(",") for line in file if line.startswith("SA,CFL3D")]
+    known = np.array(sorted((float(row[2]), float(row[3])) for row in rows)).T
+    runs = []
+    for level in range(3):
+        x = np.concatenate([[0.0], start + np.linspace(0, 1.5, 301), [14.0]])
+        run = write_run(folder / f"bump{level}", x, np.linspace(0, 5, 6), lambda x, y: 300 + 0 * x,
+                        {"boundaries": {"entrance": {"velocity": speed}, "wall": {"from": start}}})
+        with h5py.File(run / "results.h5", "r+") as file:
+            centres, step, at = file["mesh/cellCentre"][()], file["steps/000003"], file.create_group("walls/wall")
+            half, places = 0.5 * 1.2 * speed**2, 0.5 * (x[1:-2] + x[2:-1])
+            shear = half * 0.005 * (1 + 0.1 / 4**level) * (1.6 - (places - start))
+            step["density"], step["eddy_viscosity"] = np.full(len(centres), 1.2), 1e-4 * (centres[:, 1] < 2)
+            step["viscosity"] = np.full(len(centres), 2e-5)
+            step["pressure"] = half * (np.interp(centres[:, 0] - start, *known) + 0.01) + 7 * (centres[:, 1] > 1)
+            # An output before the last, which does not count; friction along a slope of three in four.
+            for name, values in (("step", 0 * shear + 3), ("x", places), ("friction_x", 0.8 * shear), ("friction_y", 0.6 * shear),
+                                 ("y_plus", 0 * shear + 0.4)):
+                at[name] = np.concatenate([0 * shear if name == "step" else values + 1, values])
+        runs.append(run)
+    code, told, err = called("compare_wall_friction", *runs, "--case", "turbulent_bump", "--model", "sa", "--json", "--picture", folder / "bump.png")
+    assert code == 0 and (folder / "bump.png").stat().st_size > 1000, err
+    found = json.loads(told)
+    exact = [0.005 * (1.6 - x) for x in found["at"]]
+    for (order, value), of, finest in zip(found["extrapolated"], exact, found["runs"][2]["cf"]):
+        assert abs(order - 2) < 1e-3 and abs(value / of - 1) < 1e-5 and abs(finest / of - 1.00625) < 1e-5, (found, exact)
+    assert abs(found["runs"][0]["ratio"] - 5) < 1e-9 and abs(found["runs"][0]["y_plus"] - 0.4) < 1e-9, found
+    assert abs(found["known"]["CFL3D"][0] - 0.00615) < 1e-5 and abs(found["cp"]["CFL3D"]["shift"] - 0.01) < 1e-6, found
+    assert found["cp"]["CFL3D"]["apart"] < 1e-6, found
+    code, _, err = called("compare_wall_friction", folder / "nowhere", "--case", "flat_plate")
+    assert code == 2 and "nowhere" in err, err
+
+
 def check_round_jet(folder):
     """A jet that spreads by 0.1 from 4 diameters behind the orifice, whose axis decays by 5."""
     diameter, speed = 0.02, 30.0
@@ -182,6 +218,7 @@ def check_round_jet(folder):
 
 with tempfile.TemporaryDirectory() as scratch:
     check_turbulent_step(pathlib.Path(scratch))
+    check_wall_friction(pathlib.Path(scratch))
     check_round_jet(pathlib.Path(scratch))
     check_santoro(pathlib.Path(scratch))
     check_mesh(pathlib.Path(scratch))
