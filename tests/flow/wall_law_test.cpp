@@ -91,8 +91,9 @@ TEST(WallLaw, BothLayersAtOnceAreEachOfThemWhereItRules) {
   const walllaw::Layer layer = walllaw::blendedLayer(u * u / 0.3, speed, nu, y, beta);
   const double ofLogarithm = u / (0.3 * 0.41 * y), viscous = 6.0 * nu / (beta * y * y);
   EXPECT_NEAR(layer.frequency / std::sqrt(ofLogarithm * ofLogarithm + viscous * viscous), 1.0, 1e-12);
-  EXPECT_NEAR(layer.strain / (u / (0.41 * y)), 1.0, 1e-4);
-  EXPECT_NEAR(layer.production / (u * u * u / (0.41 * y)), 1.0 - 1.0 / (0.41 * 300.0), 1e-4);
+  // What the viscous layer still adds to the slope is 1.3e-4 of it there.
+  EXPECT_NEAR(layer.strain / (u / (0.41 * y)), 1.0, 2e-4);
+  EXPECT_NEAR(layer.production / (u * u * u / (0.41 * y)), 1.0 - 1.0 / (0.41 * 300.0), 2e-4);
   EXPECT_NEAR(layer.dissipation / (u * u * u / (0.41 * y)), 1.0, 1e-3);
   const walllaw::Layer still = walllaw::blendedLayer(0.0, speed, nu, y, beta);
   EXPECT_EQ(still.production, 0.0);
