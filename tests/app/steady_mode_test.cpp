@@ -163,8 +163,8 @@ output: {boundaries: [wall]}
   }
 }
 
-// The same by a k-omega model and both layers of the law of the wall at once, cells of y+ 100: the wall takes what drives
-// the gas, and the velocity beyond the first cell is that of resolved walls (cases/flow/turbulent_channel).
+// The same by a k-omega model and both layers of the law of the wall at once, cells of y+ 100: the wall takes what
+// drives the gas, and the velocity beyond the first cell is that of resolved walls (cases/flow/turbulent_channel).
 TEST(SteadyModeLong, AModelOfOmegaMeetsWallsByBothLayers) {
   const test::SharedScratchFolder scratch;
   test::runFlow(test::flowDeck("perfect_gas_1.yaml", R"(
