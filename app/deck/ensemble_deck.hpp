@@ -17,14 +17,10 @@ struct EnsembleRequest {
   SizeBins bins;
 };
 
-// The section, described for the problem, with the keys that all problems have; `method` and `particles`: the default
+// The section, described for the problem, with the keys that all problems have; `method` and `number`: the default
 // method and number of numerical particles.
 void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& method = "sammc",
-                     const std::string& particles = "2000");
-// Adds the keys of problems whose ensembles are repeated: how often, and with which random numbers.
-void addRepeatKeys(DeckSchema& schema);
-// Of a section of stochastic particles, also of trees: how they and their gas go on together.
-void addCouplingKeys(DeckSchema& schema, const std::string& section);
+                     const std::string& number = "2000");
 
 // Of a deck with the section. `soot`: what the section `soot` says of PAH, surface and switches. InputError, pointing
 // into the deck.

@@ -49,8 +49,8 @@ PopulationRequest ofTrees(const MechanismOfDeck& mechanism, const TreeOptions& o
 
 // What is said of soot in the section `stochastic`, which says of trees where they are.
 void refuseKeysOfSoot(const Deck& deck, std::initializer_list<const char*> more = {}) {
-  std::vector<const char*> keys{"method",        "particles", "shape",           "fractal_dimension", "active_sites",
-                                "keep_hydrogen", "growth",    "split_tolerance", "bundled_growth"};
+  std::vector<const char*> keys{"method",        "number", "shape",           "fractal_dimension", "active_sites",
+                                "keep_hydrogen", "growth", "split_tolerance", "bundled_growth"};
   keys.insert(keys.end(), more);
   for (const char* key : keys)
     if (const std::string full = std::string("stochastic.") + key; deck.isGiven(full))

@@ -175,6 +175,16 @@ void addSootModelKeys(DeckSchema& schema, const std::vector<SootModelEntry>& mod
     if (model.addKeys != nullptr) model.addKeys(schema);
 }
 
+std::vector<DeckKey> sootParticleKeys(const std::string& section) {
+  return {choiceKey(section + ".active_sites", {"particle", "primary"},
+                    "The mean size in the fraction alpha of active sites (Appel, Bockhorn, Frenklach 2000): carbon "
+                    "atoms of the mean particle or of the mean primary particle.")
+              .byDefault("particle"),
+          booleanKey(section + ".keep_hydrogen",
+                     "true: soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when PAH become soot.")
+              .byDefault("true")};
+}
+
 SootWeights readSootWeights(const Deck& deck, const Mechanism& mechanism) {
   const auto carbon = mechanism.findElement("C"), hydrogen = mechanism.findElement("H");
   if (!carbon || !hydrogen) throw deck.error("soot", "soot needs a mechanism with carbon and hydrogen");

@@ -31,6 +31,9 @@ inline constexpr const char* tooFewSections =
 // ones (Blanquart and Pitsch 2009) or those of the law behind them. InputError for what is not a hydrocarbon.
 [[nodiscard]] std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechanism);
 
+// `active_sites` and `keep_hydrogen` of `section`, which say how stochastic particles of soot take part.
+[[nodiscard]] std::vector<DeckKey> sootParticleKeys(const std::string& section);
+
 struct SootWeights {
   double carbon, hydrogen;  // kg/mol
 };

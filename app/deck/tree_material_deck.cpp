@@ -32,20 +32,12 @@ void addReactions(DeckSchema& schema) {
                       "then tends to SiO2 (Shekar et al. 2011, eq. 59, bounded at zero).")
                .byDefault("true")
                .onlyWith(materialKey, withSites))
-      .add(choiceKey("particles.active_sites", {"particle", "primary"},
-                     "The mean size in the fraction alpha of active sites (Appel, Bockhorn, Frenklach 2000): carbon "
-                     "atoms of the mean particle or of the mean primary.")
-               .byDefault("particle")
-               .onlyWith(materialKey, soot))
-      .add(booleanKey("particles.keep_hydrogen",
-                      "true: soot keeps the hydrogen of PAH; false: it returns to the gas as H2 when PAH become soot.")
-               .byDefault("true")
-               .onlyWith(materialKey, soot))
       .add(choiceKey("particles.burnt_primaries", {"break", "join"},
                      "What becomes of a particle of which a primary has burnt away. break: the parts that it held "
                      "together go apart (as Neoh, Howard, Sarofim 1985 saw); join: they touch its closest neighbour.")
                .byDefault("break")
                .onlyWith(materialKey, soot));
+  for (DeckKey& key : sootParticleKeys("particles")) schema.add(key.onlyWith(materialKey, soot));
   auto [breaks, factor] =
       fragmentationKeys("particles",
                         "Whether oxidation breaks aggregates at their necks, also where no primary has "

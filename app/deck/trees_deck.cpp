@@ -8,7 +8,7 @@
 #include <string>
 
 #include "app/deck/initial_distribution.hpp"
-#include "app/deck/size_bins_deck.hpp"
+#include "app/deck/sample_deck.hpp"
 #include "app/deck/tree_material_deck.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
@@ -60,42 +60,20 @@ void addProcesses(DeckSchema& schema) {
                .onlyWith("particles.shape", {"trees"}));
 }
 
-void addNumbers(DeckSchema& schema, const std::string& particles) {
-  schema
-      .add(integerKey("particles.number", "Number of numerical particles: more have less noise and cost more.")
-               .byDefault(particles)
-               .atLeast(8)
-               .atMost(100000000))
-      .add(numberKey(
-               "particles.split_tolerance",
-               "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
-               .byDefault("0.05")
-               .above(0)
-               .atMost(1));
-}
-
 constexpr const char* initial = "particles.initial";
 
 // Of the runs of all problems that repeat them.
 void addRuns(DeckSchema& schema) {
   addTreeStartKeys(schema);
-  schema
-      .add(quantityKey(
-               "particles.expected_number", units::perVolume,
-               "Expected largest number density: an empty sample is full when it first reaches this density. A value "
-               "far too large leaves the sample small and noisy, which the report says; with a value far too "
-               "small particles are removed at random, which is right in the mean.")
-               .formerly("full_at")
-               .byDefault("1e18 1/m^3")
-               .above(0))
-      .add(integerKey("particles.repeats", "Number of independent repeats, from which mean and confidence follow.")
-               .byDefault("8")
-               .atLeast(2)
-               .atMost(100000))
-      .add(integerKey("particles.seed",
-                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
-               .byDefault("1")
-               .atLeast(0));
+  schema.add(quantityKey(
+                 "particles.expected_number", units::perVolume,
+                 "Expected largest number density: an empty sample is full when it first reaches this density. A value "
+                 "far too large leaves the sample small and noisy, which the report says; with a value far too "
+                 "small particles are removed at random, which is right in the mean.")
+                 .formerly("full_at")
+                 .byDefault("1e18 1/m^3")
+                 .above(0));
+  addRepeatKeys(schema, "particles");
   addSizeBinKeys(schema, "particles");
 }
 
@@ -180,10 +158,11 @@ void addTreeStartKeys(DeckSchema& schema) {
                  "In place of the keys of `particles.initial` a list of maps, one a mode: all of them are there.");
 }
 
-void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles) {
+void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& number) {
   addTreeMaterialKeys(schema, description);
   addProcesses(schema);
-  addNumbers(schema, particles);
+  schema.add(sampleNumberKey("particles", number));
+  addSplitToleranceKey(schema, "particles", "0.05");
 }
 
 void addTreeReactorKeys(DeckSchema& schema) {
@@ -254,9 +233,7 @@ TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
               "primaries"
           ? CollisionSize::primaries
           : CollisionSize::volumeToSurface;
-  options.particles = deck.integer<std::size_t>("particles.number");
-  requireMemory(deck, "particles.number", fmt::format("a sample of {} particles", options.particles),
-                1000 * static_cast<double>(options.particles));  // some ten primaries each
+  options.particles = readSampleNumber(deck, "particles", 1000);  // some ten primaries each
   options.splitTolerance = deck.number("particles.split_tolerance");
   return options;
 }

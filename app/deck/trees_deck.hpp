@@ -24,9 +24,9 @@ struct TreeRequest {
   std::vector<double> classesByDiameter, classesByPrimaries;
 };
 
-// The section, described for the problem, with the keys that all problems have; `particles`: the default number of
+// The section, described for the problem, with the keys that all problems have; `number`: the default number of
 // numerical particles.
-void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& particles);
+void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& number);
 // Adds the keys of the particles that are there at the start.
 void addTreeStartKeys(DeckSchema& schema);
 // Adds the keys of the section and those of a reactor.

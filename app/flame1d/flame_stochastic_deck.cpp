@@ -6,6 +6,7 @@
 
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/population_deck.hpp"
+#include "app/deck/sample_deck.hpp"
 #include "app/deck/trees_deck.hpp"
 
 namespace lampblack::app {
@@ -15,7 +16,7 @@ void addStochasticKeys(DeckSchema& schema) {
                   "Ensembles of particles along the flame, by repeats of independent random numbers: of soot, with the "
                   "section soot, whose PAH, surface and switches are theirs; or those of the section particles, of "
                   "which this one says where they go and how they are coupled with the gas.");
-  addRepeatKeys(schema);
+  addRepeatKeys(schema, "stochastic");
   schema
       .add(choiceKey("stochastic.coupling", {"decoupled", "two_way"},
                      "decoupled: the flame as solved with soot.model, whose exchange with the gas stands for the "

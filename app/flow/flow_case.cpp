@@ -8,7 +8,7 @@
 #include "app/deck/initial_distribution.hpp"
 #include "app/deck/population_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
-#include "app/deck/size_bins_deck.hpp"
+#include "app/deck/sample_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"

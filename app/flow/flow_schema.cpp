@@ -4,7 +4,7 @@
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/initial_distribution.hpp"
 #include "app/deck/radiation_deck.hpp"
-#include "app/deck/size_bins_deck.hpp"
+#include "app/deck/sample_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
@@ -285,15 +285,11 @@ void addParticles(DeckSchema& schema) {
                       "Largest number of numerical particles of an ensemble: more have less noise and cost more.")
                .byDefault("4096")
                .atLeast(16))
-      .add(numberKey("trajectories.split_tolerance",
-                     "Largest relative change of an ensemble in a splitting step: smaller is more accurate and slower.")
-               .byDefault("0.01")
-               .above(0)
-               .atMost(1))
       .add(booleanKey("trajectories.gas_tables",
                       "Whether the gas of each path, all of its species, is written to tables/streamline_<number>.csv, "
                       "which gas.file of a deck with problem: prescribed_gas reads.")
                .byDefault("false"));
+  addSplitToleranceKey(schema, "trajectories", "0.01");
   addSizeBinKeys(schema, "trajectories", "200 nm");
   schema.section("trajectories.start", Presence::required, "Where the ensembles start.")
       .add(quantityKey("trajectories.start[].r", units::length,

@@ -1,4 +1,5 @@
 #include "app/deck/ensemble_deck.hpp"
+#include "app/deck/sample_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "app/prescribed_gas/prescribed_gas_case.hpp"
@@ -55,7 +56,7 @@ DeckSchema prescribedGasSchema() {
       schema,
       "Ensembles of soot particles in place of soot.model, by repeats of independent random numbers; needs the "
       "section soot, whose PAH, surface and switches are theirs.");
-  addRepeatKeys(schema);
+  addRepeatKeys(schema, "stochastic");
   addCouplingKeys(schema, "stochastic");
   addTreePrescribedGasKeys(schema);
   addCouplingKeys(schema, "particles");

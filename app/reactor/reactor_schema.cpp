@@ -1,4 +1,5 @@
 #include "app/deck/ensemble_deck.hpp"
+#include "app/deck/sample_deck.hpp"
 #include "app/deck/sensitivity_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
@@ -183,7 +184,7 @@ void addEnsembles(DeckSchema& schema) {
       schema,
       "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
       "reactor, or a network, of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
-  addRepeatKeys(schema);
+  addRepeatKeys(schema, "stochastic");
   addCouplingKeys(schema, "stochastic");
 }
 

@@ -17,7 +17,7 @@ image = running.package("PIL.Image")
 
 MIDDLE = 30  # of some 60 steps; within a block
 SETTINGS = ("time.end=120 us", "time.maximum_step=2 us", "output.interval=40 us", "output.species=[A2]",
-            "stochastic={shape: aggregates, particles: 50, minimum_number_density: 1e8 1/m^3, bins: 12, split_tolerance: 0.1}",
+            "stochastic={shape: aggregates, number: 50, minimum_number_density: 1e8 1/m^3, bins: 12, split_tolerance: 0.1}",
             "stochastic.statistics={start: 40 us, block: 10.5 us}",
             "stochastic.regions={flame: {from: [0 mm, 2 mm], to: [6 mm, 6 mm]}, cold: {from: [0 mm, 7 mm], to: [6 mm, 8 mm]}}",
             "output.lines={axis: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 5}}",

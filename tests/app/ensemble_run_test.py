@@ -14,12 +14,12 @@ import running
 h5py = running.package("h5py")
 
 STEPS = ("time.end=40 us", "time.maximum_step=2 us", "output.interval=20 us", "output.history_steps=1", "output.species=[A2]")
-STOCHASTIC = "stochastic={{method: {method}, particles: 40, minimum_number_density: 1e9 1/m^3, averaging_time: {average}}}"
+STOCHASTIC = "stochastic={{method: {method}, number: 40, minimum_number_density: 1e9 1/m^3, averaging_time: {average}}}"
 FIELDS = ("soot_volume_fraction", "soot_number_density", "soot_primary_diameter", "numerical_particles", "soot_owed_carbon")
 
 # What is set, and what the message has to name.
 REFUSED = (
-    (("stochastic={particles: 4}",), "stochastic.particles"),
+    (("stochastic={number: 4}",), "stochastic.number"),
     (("stochastic={}", "soot.model=hmom"), "take the place of a model"),
     (("stochastic={exchange: one_way, averaging_time: 1 ms}",), "averaging_time"),
     (("stochastic={smallest: 100 nm, largest: 10 nm}",), "stochastic.largest"),

@@ -62,9 +62,22 @@ TEST(StochasticDeck, WhatIsOfAnotherKindIsRefused) {
         std::pair{"soot: {pah: [A2]}\nparticles: {material: soot}\nstochastic: {repeats: 4}\n", "this is of soot"},
         std::pair{"soot: {pah: [A2]}\nparticles: {material: soot}\nstochastic: {shape: aggregates}\n",
                   "this is of soot"},
+        std::pair{"soot: {pah: [A2]}\nparticles: {material: soot}\nstochastic: {number: 40}\n", "this is of soot"},
         std::pair{"stochastic: {repeats: 4}\n", "ensembles need the section 'soot'"}})
     EXPECT_THAT(test::messageOf<InputError>([text = sections] { (void)requestOf(text); }),
                 testing::HasSubstr(expected));
+}
+
+// The section `soot` says these.
+TEST(StochasticDeck, TreesOfSootHaveNoSecondKeyForWhatSootSays) {
+  for (const char* key : {"density: 1900 kg/m^3", "coagulation: false", "enhancement: 2", "slip: davies"})
+    EXPECT_THAT(test::messageOf<InputError>([key] {
+                  (void)requestOf("soot: {pah: [A2]}\nparticles: {material: soot, " + std::string(key) +
+                                  "}\nstochastic: {coupling: two_way}\n");
+                }),
+                testing::AllOf(testing::HasSubstr("particles." + std::string(key).substr(0, 4)),
+                               testing::HasSubstr("of soot this is 'soot.")))
+        << key;
 }
 
 }  // namespace

@@ -45,7 +45,7 @@ WIDE, EQUAL = (1e16, 20e-9, 1.4), (1e15, 50e-9)
 START = (f"[{{distribution: lognormal, number: {WIDE[0]} 1/m^3, diameter: {WIDE[1]} m, geometric_deviation: {WIDE[2]}@}}, "
          f"{{distribution: monodisperse, number: {EQUAL[0]} 1/m^3, diameter: {EQUAL[1]} m@}}]")
 SOOT = "soot: {pah: [A2], initial: " + START.replace("@", "") + ", model: none}\n"
-ENSEMBLE = SOOT.replace(", model: none", "") + "stochastic: {particles: 200, method: sammc}\n"
+ENSEMBLE = SOOT.replace(", model: none", "") + "stochastic: {number: 200, method: sammc}\n"
 TREES = "particles: {material: soot, number: 200, initial: " + START.replace("@", ", units: [1, 0]") + "}\n"
 BEGINS = {**{model: SOOT.replace("none", model) for model in ("two_equation_dimer", "leung", "sectional", "momic", "hmom")},
           **{method: ENSEMBLE.replace("sammc", method) for method in ("dsmc", "swa", "sammc")},
@@ -141,7 +141,7 @@ def main(executable, *mpiexec):
         check_begins(program, folder)
         taken = check_walls(program, other, deck, folder)
         ensembles = check_walls(program, other, deck, folder / "ensembles",
-                                "stochastic={particles: 50, minimum_number_density: 1e9 1/m^3}")
+                                "stochastic={number: 50, minimum_number_density: 1e9 1/m^3}")
         print(f"walls took {taken:.3g} kg/rad of the model's particles, {ensembles:.3g} of ensembles")
     print("passed")
 

@@ -34,7 +34,7 @@ temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm], temperature: [300 K, 
 grid: {{refine: false, initial_points: 20}}
 solver: {{species_tolerance: 1e-8}}
 soot: {{model: sectional, pah: [A2]}}
-stochastic: {{particles: 50, repeats: 2, heights: [5 mm], bins: 5, coupling: two_way, iterations: 2, tolerance: 1}}
+stochastic: {{number: 50, repeats: 2, heights: [5 mm], bins: 5, coupling: two_way, iterations: 2, tolerance: 1}}
 unsteady: {{end: 0.01 ms, output_interval: 0.01 ms, first_step: 1 us}}
 """
 
@@ -139,7 +139,7 @@ def main(executable: str, *mpiexec: str) -> int:
                 f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms", "output.boundaries=[wall]"))
         # All blocks of an instant: five are soon over.
         runs["flow_ensembles"] = (ensembles, *running.settings(
-            "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={particles: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
+            "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={number: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
             "stochastic.statistics={start: 10 us, block: 2 us}",
             "stochastic.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (SOOT_TREES, "flame_trees"), (POPULATION, "population")):
@@ -157,7 +157,7 @@ def main(executable: str, *mpiexec: str) -> int:
         runs["closed_soot"] = (CASES / "reactor/closed_soot/deck.yaml", *running.settings("time.end=0.1 ms", *sections))
         runs["stirred_soot"] = (CASES / "reactor/stirred_soot/deck.yaml", *running.settings(*sections))
         runs["ensemble"] = (CASES / "reactor/plug_flow_soot/deck.yaml", *running.settings(
-            "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "stochastic.repeats=2", "stochastic.particles=50",
+            "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "stochastic.repeats=2", "stochastic.number=50",
             "stochastic.bins=5"))
 
         runs["trees"] = (CASES / "reactor/silica_batch/deck.yaml", *running.settings(
@@ -167,7 +167,7 @@ def main(executable: str, *mpiexec: str) -> int:
             "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "particles.material=soot", "particles.repeats=2",
             "particles.number=50", "particles.bins=5", "particles.fragmentation=true"))
         along = CASES / "particles_along/premixed_ethylene_abf/deck.yaml"
-        runs["along"] = (along, *running.settings("stochastic.repeats=2", "stochastic.particles=32", "gas.end=4 ms", "output.times=[1 ms]",
+        runs["along"] = (along, *running.settings("stochastic.repeats=2", "stochastic.number=32", "gas.end=4 ms", "output.times=[1 ms]",
                                                   "output.interval=2 ms"))
         along_model = folder / "along_model.yaml"
         along_model.write_text(f"problem: prescribed_gas\nmechanism: {CASES}/mechanisms/ethylene_abf2000_101.yaml\n"

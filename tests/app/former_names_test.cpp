@@ -39,13 +39,15 @@ initial: {layer: none, composition: 'N2: 1'}
 time: {end: 1 s}
 soot: {model: two_equation_dimer}
 stochastic:
+  number: 300
   averaging_time: 1 ms
   frozen_gas: 2 ms
   minimum_number_density: 1e9 1/m^3
   bundled_growth: 0.1
 transport: {collision_integrals: wang_fits}
 )",
-                           {{"averaging_time", "average"},
+                           {{"number: 300", "particles: 300"},
+                            {"averaging_time", "average"},
                             {"frozen_gas", "hold_gas"},
                             {"minimum_number_density", "least_number"},
                             {"bundled_growth", "share_at_once"},
@@ -73,9 +75,9 @@ mechanism: gas.yaml
 flame: {type: burner}
 inlet: {temperature: 300 K, velocity: 1 m/s, composition: 'N2: 1'}
 soot: {model: two_equation_dimer}
-stochastic: {coupling: two_way, minimum_velocity: 2 mm/s, iterations: 3}
+stochastic: {coupling: two_way, minimum_velocity: 2 mm/s, number: 50, iterations: 3}
 )",
-                           {{"coupling", "coupled"}, {"minimum_velocity", "slowest"}});
+                           {{"coupling", "coupled"}, {"minimum_velocity", "slowest"}, {"number: 50", "particles: 50"}});
 }
 
 TEST(FormerNames, OfPopulationBalances) {

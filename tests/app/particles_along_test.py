@@ -16,7 +16,7 @@ h5py, np = running.package("h5py"), running.package("numpy")
 CASE = running.SOURCE / "cases/particles_along/premixed_ethylene_abf"
 SILICA = running.SOURCE / "cases/particles_along/silica_teos"
 MECHANISM = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
-SHORT = ("stochastic.particles=256", "stochastic.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
+SHORT = ("stochastic.number=256", "stochastic.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
          "stochastic.split_tolerance=0.05", "stochastic.smallest=0.5 nm")
 GAS = ("time [s],temperature [K],pressure [Pa],X_AR,X_A4,X_H\n0,1700,1e5,0.999,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n")
 MODEL = """problem: prescribed_gas
@@ -38,7 +38,7 @@ ALONG_FLAME = f"""problem: prescribed_gas
 mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
 gas: {{flame: flame/results.h5}}
 soot: {{model: none, pah: [A2]}}
-stochastic: {{particles: 100, repeats: 2}}
+stochastic: {{number: 100, repeats: 2}}
 """
 # Without the gas.
 TREES_ALONG_FLAME = f"""problem: prescribed_gas
@@ -106,7 +106,7 @@ def check_rank_independence(programs: tuple, folder: pathlib.Path) -> None:
     (folder / "gas.csv").write_text(GAS, encoding="utf-8")
     flame_file(programs[0], folder)
     trees = ("particles.number=32", "particles.repeats=3", "particles.tables_at=[]", "gas.end=20 ms")
-    spheres = ("stochastic.particles=64", *SHORT[1:])
+    spheres = ("stochastic.number=64", *SHORT[1:])
     decks = {"spheres": (CASE / "deck.yaml", spheres), "depleting": (CASE / "deck.yaml", (
         *spheres, "gas.exchange=two_way", "stochastic.coupling_change=0.3")), "silica": (SILICA / "deck.yaml", trees)}
     for name, text in (("sectional", MODEL.format(mechanism=MECHANISM, model="sectional")), ("flame", ALONG_FLAME),
@@ -138,7 +138,7 @@ def check_models(program, folder: pathlib.Path) -> None:
 def check_depletion(program, folder: pathlib.Path) -> None:
     """What an ensemble and a model leave of their PAH: less than given, the same of both, by two ways of coupling."""
     left, given = {}, {}
-    for name, more in (("hmom", ""), ("ensemble", "stochastic: {particles: 1000, repeats: 3}\n")):
+    for name, more in (("hmom", ""), ("ensemble", "stochastic: {number: 1000, repeats: 3}\n")):
         deck = folder / f"depleted_{name}.yaml"
         deck.write_text(f"problem: prescribed_gas\nmechanism: {MECHANISM}\ngas: {{file: {CASE}/gas.csv, exchange: two_way, end: 16 ms}}\n"
                         f"soot: {{model: {'none' if more else 'hmom'}, pah: [A4]}}\noutput: {{interval: 4 ms}}\n{more}", encoding="utf-8")

@@ -146,7 +146,7 @@ def soot(program, folder):
                 if model == "sectional":
                     assert file["particles/size_distribution"].shape == (group["soot_volume_fraction"].size, file["particles/diameter"].size)
             shutil.rmtree(out)
-        ensemble = ("soot.model=none", "stochastic.repeats=2", "stochastic.particles=50", "integrator.relative_tolerance=1e-6",
+        ensemble = ("soot.model=none", "stochastic.repeats=2", "stochastic.number=50", "integrator.relative_tolerance=1e-6",
                     "stochastic.coupling_change=0.3", *settings, *(("time.end=0.2 ms",) if kind == "stirred" else ()))
         out, results, text = run(program, f"reactor/{kind}_soot", folder, *ensemble)
         with h5py.File(out / "results.h5", "r") as file:
@@ -167,7 +167,7 @@ def ensembles_in_networks(program, folder):
     deck = (CASES / "reactor/stirred_soot/deck.yaml").read_text(encoding="utf-8").replace("../..", str(CASES))
     inlet = deck[deck.index("inlet:"):deck.index("soot:")]
     feed = "".join(f"    {line}\n" for line in inlet.split("\n")[1:] if line)
-    settings = ("soot.model=none", "stochastic.repeats=2", "stochastic.particles=50", "integrator.relative_tolerance=1e-4",
+    settings = ("soot.model=none", "stochastic.repeats=2", "stochastic.number=50", "integrator.relative_tolerance=1e-4",
                 "stochastic.coupling_change=0.3", "time.end=0.02 ms")
 
     def history(name, reactors, connections):

@@ -135,7 +135,7 @@ TEST(Repartition, BalancesABandOfCostlyCellsAndChangesNothingElse) {
 // The ensembles of the cells go along, each once.
 TEST(Repartition, TakesEnsemblesAlong) {
   const test::SharedScratchFolder scratch;
-  const std::vector<std::string> ensembles{"stochastic.particles=40", "stochastic.minimum_number_density=1e9 1/m^3",
+  const std::vector<std::string> ensembles{"stochastic.number=40", "stochastic.minimum_number_density=1e9 1/m^3",
                                            "stochastic.exchange=one_way"};
   const auto with = [&](const std::string& repartition) {
     std::vector<std::string> all = ensembles;

@@ -149,7 +149,7 @@ TEST(PopulationDeck, MakesTheKindThatADeckAsksFor) {
   EXPECT_EQ(silica->classedBy()[trees.classes[0].by].name, "primaries");
 
   const PopulationRequest spheres =
-      requestOfDeck("ethylene_abf2000_101.yaml", "soot: {pah: [A2]}\nstochastic: {repeats: 3, particles: 50}\n");
+      requestOfDeck("ethylene_abf2000_101.yaml", "soot: {pah: [A2]}\nstochastic: {repeats: 3, number: 50}\n");
   EXPECT_EQ(spheres.section, "stochastic");
   EXPECT_EQ(spheres.repeats, 3U);
   EXPECT_FALSE(spheres.hasStart);

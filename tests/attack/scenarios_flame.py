@@ -73,7 +73,7 @@ SCENARIOS = [
     ("sections of factor 1e300", "sectional", {"soot.sectional.factor": Raw("1e300")}, "refused numerics"),
     ("400 sections of factor 10", "sectional", {"soot.sectional": {"sections": Raw("400"), "factor": Raw("10")}}, "refused numerics"),
     ("slowest that leaves no ensemble", "sections_and_ensemble", {"stochastic.minimum_velocity": "1e9 m/s"}, "refused numerics"),
-    ("an ensemble of 1e12", "sections_and_ensemble", {"stochastic.particles": Raw("1000000000000")}, "refused"),
+    ("an ensemble of 1e12", "sections_and_ensemble", {"stochastic.number": Raw("1000000000000")}, "refused"),
     ("heights outside", "sections_and_ensemble", {"stochastic.heights": ["1 m"]}, "refused"),
     ("ensemble without soot", "sections_and_ensemble", {"soot": REMOVE}, "refused"),
     ("given temperature without a profile", SOOT, {"temperature_profile": REMOVE}, "refused"),
