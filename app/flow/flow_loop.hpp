@@ -132,6 +132,7 @@ class FlowLoop {
   // Collective. Of the state now; kept in norms_.
   void findNorms(const FlowResidual& residual);
   [[nodiscard]] double largestNorm() const;
+  [[nodiscard]] SteadySearch::Residual residualOfSearch() const;
   // W/m^3, of the owned cells; W (or per metre or radian) of the domain, zero below Steadiness::leastHeat(),
   // collective.
   [[nodiscard]] std::vector<double> heatRelease() const;

@@ -61,10 +61,18 @@ void FlowLoop::findNorms(const FlowResidual& residual) {
 }
 
 double FlowLoop::largestNorm() const {
-  double largest = 0.0;
-  for (const ResidualNorm& norm : norms_)
-    largest = std::isfinite(norm.value) ? std::max(largest, norm.value) : INFINITY;
-  return largest;
+  return residualOfSearch().largest;
+}
+
+SteadySearch::Residual FlowLoop::residualOfSearch() const {
+  SteadySearch::Residual found(0.0);
+  const auto raise = [](double& to, double value) { to = std::isfinite(value) ? std::max(to, value) : INFINITY; };
+  for (const ResidualNorm& norm : norms_) {
+    raise(found.largest, norm.value);
+    if (norm.equation == "momentum" || norm.equation == "swirl" || norm.equation == "enthalpy")
+      raise(found.ofFlame, norm.value);
+  }
+  return found;
 }
 
 void FlowLoop::searchOn(Outputs& outputs) {
@@ -83,7 +91,7 @@ void FlowLoop::searchOn(Outputs& outputs) {
             std::make_unique<FlowResidual>(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
       residual_->evaluate(domain_->state);
       findNorms(*residual_);
-      search_->addResidualOfStep(largestNorm(), mayAttempt());
+      search_->addResidualOfStep(residualOfSearch(), mayAttempt());
     }
     lightIfDark(outputs);
   }
@@ -120,8 +128,9 @@ void FlowLoop::iterate(Outputs& outputs) {
       domain_->stepControl.setHeatRelease(heatRelease());
       domain_->budget->begin(domain_->state);
       findNorms(residual);
-      const double norm = largestNorm();
-      search_->addIteration(norm, totalHeatRelease(), norm > search_->options().residual || burnsOrCannot());
+      const SteadySearch::Residual left = residualOfSearch();
+      search_->addIteration(left, totalHeatRelease(),
+                            left.largest > search_->options().residual || burnsOrCannot());
     } else {
       search_->addFailure(outcome.why);
     }
@@ -168,9 +177,10 @@ void FlowLoop::giveUp(Outputs& outputs) {
   raiseTogether(
       comm_, NumericsError(fmt::format(
                  "no steady state with residuals below {:.2g} was found in {} steps in time and {} iterations{}: {}. A "
-                 "flow that moves by itself has none: look at it in time (--restart with 'time.mode: transient' and "
-                 "'time.end'); else more iterations (time.steady.iterations, time.steady.returns) may find it, or "
-                 "smaller cells at that place, or it is small enough as it is (time.steady.residual); {}",
+                 "flow that moves by itself has none or one that steps in time pass by: look at it in time (--restart with "
+                 "'time.mode: transient' and 'time.end'), and start from a later moment of that (initial.flow.results, "
+                 "with time.steady.steps: 30); else more iterations (time.steady.iterations, time.steady.returns) may "
+                 "find it, or smaller cells at that place, or it is small enough as it is (time.steady.residual); {}",
                  search_->options().residual, search_->steps(), search_->iterations(),
                  search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, kept)));
 }

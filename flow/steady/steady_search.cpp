@@ -63,8 +63,10 @@ void SteadySearch::addStep(double heatRelease, bool wasRetried) {
   if (heat_.size() > static_cast<std::size_t>(quietSteps)) heat_.pop_front();
 }
 
-void SteadySearch::addResidualOfStep(double residual, bool burns) {
+void SteadySearch::addResidualOfStep(const Residual& told, bool burns) {
+  const double residual = told.largest;
   latest_ = residual;
+  flameLatest_ = told.ofFlame;
   isSteady_ = residual <= options_.residual;
   if (first_ > 0.0) least_ = std::min(least_, residual);
   const bool established = isEstablished();
@@ -73,6 +75,7 @@ void SteadySearch::addResidualOfStep(double residual, bool burns) {
   isAttempt_ = !established;
   if (!(first_ > 0.0)) first_ = least_ = residual;
   began_ = best_ = residual;
+  flameAtBegin_ = flameLatest_;
   heatAtBegin_ = heat_.back();
   iterationsNow_ = bestAt_ = failures_ = dark_ = 0;
 }
@@ -85,11 +88,13 @@ void SteadySearch::addLighting() {
   heat_.clear();
 }
 
-void SteadySearch::addIteration(double residual, double heatRelease, bool burns) {
+void SteadySearch::addIteration(const Residual& told, double heatRelease, bool burns) {
+  const double residual = told.largest;
   ++iterations_;
   ++iterationsNow_;
   failures_ = 0;
   latest_ = residual;
+  flameLatest_ = told.ofFlame;
   dark_ = heatRelease < leftOfHeat * heatAtBegin_ ? dark_ + 1 : 0;
   if (dark_ >= darkIterations) {
     goBack(fmt::format("the flame has gone out: {:.3g} W of {:.3g} W were left", heatRelease, heatAtBegin_));
@@ -133,7 +138,9 @@ void SteadySearch::endIterations(const std::string& why) {
 
 void SteadySearch::goBack(const std::string& why) {
   whyNot_ = why;
-  takesBack_ = dark_ > 0 || !(latest_ < began_);
+  takesBack_ = dark_ > 0 || !(latest_ < began_) || !(flameLatest_ < flameAtBegin_);
+  if (flameLatest_ > flameAtBegin_)
+    whyNot_ += fmt::format("; that of momentum and enthalpy went from {:.2e} to {:.2e}", flameAtBegin_, flameLatest_);
   phase_ = Phase::Steps;
   if (isAttempt_) {
     isAttempt_ = false;
@@ -159,7 +166,7 @@ double SteadySearch::progress() const {
 }
 
 void SteadySearch::saveOrLoad(StateArchive& archive) {
-  std::vector<double> numbers{first_, least_, latest_, began_, heatAtBegin_, best_};
+  std::vector<double> numbers{first_, least_, latest_, began_, heatAtBegin_, best_, flameAtBegin_, flameLatest_};
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
                      &dark_, &lightings_})
     numbers.push_back(*count);
@@ -170,7 +177,9 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   archive.shared("steady_search_heat", heat);
   if (!archive.loading()) return;
   std::size_t next = 0;
-  for (double* value : {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_}) *value = numbers.at(next++);
+  for (double* value :
+       {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_, &flameAtBegin_, &flameLatest_})
+    *value = numbers.at(next++);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
                      &dark_, &lightings_})
     *count = static_cast<int>(numbers.at(next++));

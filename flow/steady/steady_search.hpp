@@ -24,6 +24,13 @@ class SteadySearch {
     int attempts = 0;
   };
   enum class Phase { Steps, Iterations };
+  // The largest residual of any equation, and of those that carry the flame, momentum (swirl) and enthalpy: a trace's may
+  // fall while these run away.
+  struct Residual {
+    double largest = 0.0, ofFlame = 0.0;
+    Residual(double all) : largest(all), ofFlame(all) {}
+    Residual(double all, double flame) : largest(all), ofFlame(flame) {}
+  };
 
   explicit SteadySearch(const Options& options) : options_(options) {}
 
@@ -33,19 +40,18 @@ class SteadySearch {
   [[nodiscard]] bool isGivenUp() const { return isGivenUp_; }
   // Whether the residual of the state after the last step has to be told before the next.
   [[nodiscard]] bool wantsResidual() const;
-  // Whether the iterations that have just ended in vain left nothing to go on from: the flow is then to be what it was
-  // before the first of them.
+  // Whether the iterations that have just ended in vain left nothing to go on from, as the flame has gone out or a
+  // residual, the largest or that of the flame, is no smaller: the flow is then to be what it was before the first.
   [[nodiscard]] bool takesBack() const { return takesBack_; }
 
   // What came of a step in time: heat that reactions release in the domain (W, or per metre of depth or radian), and
   // whether the step was tried more than once.
   void addStep(double heatRelease, bool wasRetried);
-  // The largest residual of any equation, of the state that the steps have led to. `burns`: as for an iteration;
-  // nothing is attempted where nothing burns.
-  void addResidualOfStep(double residual, bool burns = true);
+  // Of the state that the steps have led to. `burns`: as for an iteration; nothing is attempted where nothing burns.
+  void addResidualOfStep(const Residual& residual, bool burns = true);
   // What came of an iteration that was taken. `burns`: whether there is a flame in the state, or could be none; asked
   // where the residual is low enough.
-  void addIteration(double residual, double heatRelease, bool burns = true);
+  void addIteration(const Residual& residual, double heatRelease, bool burns = true);
   // An iteration that was not taken, and why; the next may be, as it tries less.
   void addFailure(const std::string& why);
   // The flow has been lit: the steps in time begin anew, as at the start of the search.
@@ -87,6 +93,7 @@ class SteadySearch {
   double first_ = 0.0, least_ = 0.0, latest_ = 0.0;  // residuals: of the first iterations' begin, since, the last
   // Of the present iterations: the residual and the heat that they began with, the least residual since, when it was.
   double began_ = 0.0, heatAtBegin_ = 0.0, best_ = 0.0;
+  double flameAtBegin_ = 0.0, flameLatest_ = 0.0;  // residuals of the flame
   int iterationsNow_ = 0, bestAt_ = 0;
   int failures_ = 0, dark_ = 0;  // in a row: failures, iterations with a small part of that heat
   int attempts_ = 0, attempted_ = 0;

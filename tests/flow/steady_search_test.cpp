@@ -24,6 +24,13 @@ int steps(SteadySearch& search, double heat = 1.0, int most = 10000) {
   return most;
 }
 
+// By what a checkpoint has.
+void pass(SteadySearch& from, SteadySearch& to) {
+  StateBackup kept(0, 0);
+  kept.save([&](StateArchive& archive) { from.saveOrLoad(archive); });
+  kept.restore([&](StateArchive& archive) { to.saveOrLoad(archive); });
+}
+
 TEST(SteadySearch, IteratesOnceTheHeatReleaseIsQuiet) {
   SteadySearch still({});
   EXPECT_EQ(steps(still), 50);
@@ -177,6 +184,24 @@ TEST(SteadySearch, IterationsThatRunAwayAreTakenBack) {
   EXPECT_THAT(search.whyNot(), HasSubstr("has grown"));
 }
 
+// A trace's residual is a thousandth of what it was; the gas burns as no flame does.
+TEST(SteadySearch, WhatAFlameHasLostIsTakenBackWhateverATraceHasGained) {
+  for (const double flame : {0.9e-3, 1e-3, 0.5}) {
+    SCOPED_TRACE(flame);
+    SteadySearch search({.steps = 10}), loaded({.steps = 10});
+    for (int step = 0; step < 10; ++step) search.addStep(1.0, false);
+    search.addResidualOfStep({high, 1e-3});
+    search.addIteration({1e-3 * high, flame}, 1.0);
+    pass(search, loaded);
+    for (SteadySearch* each : {&search, &loaded}) {
+      for (int i = 0; i < 8; ++i) each->addFailure("too much");
+      EXPECT_EQ(each->phase(), Phase::Steps);
+      EXPECT_EQ(each->takesBack(), flame >= 1e-3);
+      EXPECT_EQ(each->whyNot().find("momentum and enthalpy went from 1.00e-03") != std::string::npos, flame > 1e-3);
+    }
+  }
+}
+
 TEST(SteadySearch, AFlameThatGoesOutIsNoSteadyState) {
   SteadySearch search({.residual = 1e-3});
   steps(search, 20.0);
@@ -292,13 +317,6 @@ TEST(SteadySearch, AnAttemptHasNoMoreThanItsIterations) {
   EXPECT_FALSE(search.isAttempt());
   EXPECT_TRUE(search.takesBack());
   EXPECT_EQ(search.phase(), Phase::Steps);
-}
-
-// By what a checkpoint has.
-void pass(SteadySearch& from, SteadySearch& to) {
-  StateBackup kept(0, 0);
-  kept.save([&](StateArchive& archive) { from.saveOrLoad(archive); });
-  kept.restore([&](StateArchive& archive) { to.saveOrLoad(archive); });
 }
 
 TEST(SteadySearch, WhatWasFoundIsFoundButForATighterLimit) {

@@ -122,6 +122,22 @@ def check_santoro(folder):
     inner = np.arange(8) * 1e-3
     exact = 1e-3 * np.sum(np.pi * ((inner + 1e-3) ** 2 - inner**2) * (inner + 0.5e-3))
     assert abs(rows["integral of f_v, 1e-10 m2"]["39.73"] / (1e10 * exact) - 1) < 1e-3, (rows, exact)
+    # Averages over time: on the axis 1 ppm and one bin, at 6.5 mm 3 ppm and the other; the last moment is not taken.
+    with h5py.File(hot / "results.h5", "a") as file:
+        fields, wing = file["steps/000003"], np.abs(r - 6.5e-3) < 1e-6
+        fields["soot_volume_fraction_mean"] = np.where(wing, 3e-6, 1e-6)
+        for name, value in (("number_density", 4e16), ("mobility_diameter", 2e-8)):
+            fields[f"soot_{name}_mean"] = np.where(wing, value, 0.5 * value)
+        for name, value in (("volume_fraction", 1e-7), ("number_density", 1e15), ("mobility_diameter", 1e-9)):
+            fields[f"soot_{name}_interval"] = np.full(len(r), value)
+        fields["soot_size_distribution_mean"] = np.stack([np.where(wing, 0, 1e17), np.where(wing, 1e17, 0)], axis=-1)
+        file["soot_sizes/bin_edges"] = [1e-9, 1e-8, 1e-7]
+    code, told, err = called("compare_santoro", hot, "--out", folder / "sizes")
+    assert code == 0 and (folder / "sizes/sizes.png").is_file(), err
+    lines = [line.split() for line in told.splitlines() if line.startswith(("  axis", "  wing"))]
+    assert len(lines) == 10 and "largest f_v 3 ppm" in told, told
+    assert lines[0] == "axis 19.0 0.50 1 +- 0.1 2e+10 +- 1e+09 10 +- 1".split(), lines[0]
+    assert lines[5] == "wing 19.0 6.50 3 +- 0.1 4e+10 +- 1e+09 20 +- 1".split(), lines[5]
     code, _, err = called("compare_santoro", write_run(folder / "bowed", np.arange(3.0), np.arange(3.0), lambda r, z: r,
                                                        {"mesh": {"file": "bowed.msh"}}))
     assert code == 2 and "a box of cells" in err, err

@@ -20,6 +20,9 @@ namespace {
 // a carbon atom or particles are larger than these numbers of nuclei, the rates are those at the bound.
 constexpr double largestHydrogenToCarbon = 2, largestInNuclei = 1e12, largestNucleusInNuclei = 100;
 constexpr double leastArea = 1e-100;  // m2/m3: no surface at all
+// Surface beyond that of as many nuclei as there is mass for goes so many times as fast as the mass burns: what makes it
+// is that primaries burn smaller than nuclei, and with more than once it stays in proportion to the mass.
+constexpr double excessPace = 3;
 
 }  // namespace
 
@@ -193,7 +196,8 @@ void HmomSoot::addSurface(const MomentGas& gas, const State& state, Rates& rates
     const double share = q * q * netOxidation(oxidised(rates.onLarge, l.hydrogenToCarbon), gained);
     rates.burntOut -= share * rate * l.number;
     rates.scalars[number] -= share * rate * l.number;
-    rates.scalars[surface] -= (share + (1 - share) * 2.0 / 3.0) * rate * std::min(state.surface, areaOfLarge);
+    rates.scalars[surface] -= (share + (1 - share) * 2.0 / 3.0) * rate * std::min(state.surface, areaOfLarge) +
+                              excessPace * rate * std::max(state.surface - areaOfLarge, 0.0);
     const SootAtoms lost = MomentChemistry::lost(rates.onLarge, l.hydrogenToCarbon);
     rates.scalars[carbon] -= lost.carbon * o.carbonWeight;
     rates.scalars[hydrogen] -= lost.hydrogen * o.hydrogenWeight;

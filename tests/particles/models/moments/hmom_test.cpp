@@ -263,6 +263,29 @@ TEST(Hmom, BurnsOut) {
   EXPECT_GT(end[4] / end[3], 0.9 * 40 * 12.011e-3 / constants::avogadro);
 }
 
+// Primaries that burn below the size of nuclei leave no surface behind. With the rates' 2/3 for what there is mass for,
+// and 3 for the rest, that rest tends to (1 - 2/3)/(3 - 1) of it.
+TEST(Hmom, SurfaceBurnsOutWithTheMass) {
+  SootModelOptions soot = nothing(test::naphthalene());
+  soot.oxidation = true;
+  soot.alpha = 0.1;
+  const HmomSoot model({soot});
+  const ModelGas gas(FlameGas(1900, 1e-4, 1e-3, 3e-3, 0.1, 0.02, 0, {0}), soot);
+  const double primary = 3e-9, inOne = 1000, smallest = 40 * 12.011e-3 / constants::avogadro;
+  const Scalars start = twoModes(0, 0, 1e14, inOne * sphereMass(primary), inOne);
+  const Scalars rates = gas.rates(model, start);
+  const double life = 0.5 * primary * 1850 * start[6] / -(rates[4] + rates[5]);  // s, of a primary
+  const Scalars end = gas.integrate(model, start, 1.15 * life, 1e-9);
+  const double mass = end[4] + end[5], most = mass / smallest * sphereSurface(smallest);
+  EXPECT_LT(mass, 1e-2 * (start[4] + start[5]));
+  EXPECT_GT(mass / end[3], 2 * smallest);
+  EXPECT_NEAR(end[6] / most, 1 + 1.0 / 6, 3e-3);
+  // It goes, too, where there is next to no mass for it; what there is mass for is at rest with that.
+  Scalars bare = end;
+  for (std::size_t i : {3, 4, 5}) bare[i] *= 1e-9;
+  EXPECT_NEAR(gas.rates(model, bare)[6] / bare[6] / (gas.rates(model, bare)[4] / bare[4]), 3, 1e-6);
+}
+
 TEST(Hmom, StaysBoundedInStatesOfNoPopulation) {
   const HmomSoot model({test::naphthalene()});
   const ModelGas gas(sootingGas(), model.options().soot);
