@@ -129,8 +129,7 @@ void FlowLoop::iterate(Outputs& outputs) {
       domain_->budget->begin(domain_->state);
       findNorms(residual);
       const SteadySearch::Residual left = residualOfSearch();
-      search_->addIteration(left, totalHeatRelease(),
-                            left.largest > search_->options().residual || burnsOrCannot());
+      search_->addIteration(left, totalHeatRelease(), left.largest > search_->options().residual || burnsOrCannot());
     } else {
       search_->addFailure(outcome.why);
     }
@@ -175,14 +174,15 @@ void FlowLoop::giveUp(Outputs& outputs) {
         "{:.2e}",
         worst->equation, worst->value, placeText(worst->place, domain_->mesh.dimension), worst->largest);
   raiseTogether(
-      comm_, NumericsError(fmt::format(
-                 "no steady state with residuals below {:.2g} was found in {} steps in time and {} iterations{}: {}. A "
-                 "flow that moves by itself has none or one that steps in time pass by: look at it in time (--restart with "
-                 "'time.mode: transient' and 'time.end'), and start from a later moment of that (initial.flow.results, "
-                 "with time.steady.steps: 30); else more iterations (time.steady.iterations, time.steady.returns) may "
-                 "find it, or smaller cells at that place, or it is small enough as it is (time.steady.residual); {}",
-                 search_->options().residual, search_->steps(), search_->iterations(),
-                 search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, kept)));
+      comm_,
+      NumericsError(fmt::format(
+          "no steady state with residuals below {:.2g} was found in {} steps in time and {} iterations{}: {}. A "
+          "flow that moves by itself has none or one that steps in time pass by: look at it in time (--restart with "
+          "'time.mode: transient' and 'time.end'), and start from a later moment of that (initial.flow.results, "
+          "with time.steady.steps: 30); else more iterations (time.steady.iterations, time.steady.returns) may "
+          "find it, or smaller cells at that place, or it is small enough as it is (time.steady.residual); {}",
+          search_->options().residual, search_->steps(), search_->iterations(),
+          search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, kept)));
 }
 
 void FlowLoop::saveOrLoadSearch(StateArchive& archive) {

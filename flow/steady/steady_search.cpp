@@ -177,8 +177,7 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   archive.shared("steady_search_heat", heat);
   if (!archive.loading()) return;
   std::size_t next = 0;
-  for (double* value :
-       {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_, &flameAtBegin_, &flameLatest_})
+  for (double* value : {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_, &flameAtBegin_, &flameLatest_})
     *value = numbers.at(next++);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
                      &dark_, &lightings_})

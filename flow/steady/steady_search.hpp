@@ -24,8 +24,8 @@ class SteadySearch {
     int attempts = 0;
   };
   enum class Phase { Steps, Iterations };
-  // The largest residual of any equation, and of those that carry the flame, momentum (swirl) and enthalpy: a trace's may
-  // fall while these run away.
+  // The largest residual of any equation, and of those that carry the flame, momentum (swirl) and enthalpy: a trace's
+  // may fall while these run away.
   struct Residual {
     double largest = 0.0, ofFlame = 0.0;
     Residual(double all) : largest(all), ofFlame(all) {}

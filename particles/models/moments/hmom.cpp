@@ -20,8 +20,8 @@ namespace {
 // a carbon atom or particles are larger than these numbers of nuclei, the rates are those at the bound.
 constexpr double largestHydrogenToCarbon = 2, largestInNuclei = 1e12, largestNucleusInNuclei = 100;
 constexpr double leastArea = 1e-100;  // m2/m3: no surface at all
-// Surface beyond that of as many nuclei as there is mass for goes so many times as fast as the mass burns: what makes it
-// is that primaries burn smaller than nuclei, and with more than once it stays in proportion to the mass.
+// Surface beyond that of as many nuclei as there is mass for goes so many times as fast as the mass burns: what makes
+// it is that primaries burn smaller than nuclei, and with more than once it stays in proportion to the mass.
 constexpr double excessPace = 3;
 
 }  // namespace
