@@ -138,8 +138,10 @@ void SteadySearch::endIterations(const std::string& why) {
 
 void SteadySearch::goBack(const std::string& why) {
   whyNot_ = why;
-  takesBack_ = dark_ > 0 || !(latest_ < began_) || !(flameLatest_ < flameAtBegin_);
-  if (flameLatest_ > flameAtBegin_)
+  // Below the limit the flame is at rest, whatever the last digits do.
+  const bool lostFlame = flameLatest_ > options_.residual && !(flameLatest_ < flameAtBegin_);
+  takesBack_ = dark_ > 0 || !(latest_ < began_) || lostFlame;
+  if (lostFlame && flameLatest_ > flameAtBegin_)
     whyNot_ += fmt::format("; that of momentum and enthalpy went from {:.2e} to {:.2e}", flameAtBegin_, flameLatest_);
   phase_ = Phase::Steps;
   if (isAttempt_) {

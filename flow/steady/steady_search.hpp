@@ -41,7 +41,8 @@ class SteadySearch {
   // Whether the residual of the state after the last step has to be told before the next.
   [[nodiscard]] bool wantsResidual() const;
   // Whether the iterations that have just ended in vain left nothing to go on from, as the flame has gone out or a
-  // residual, the largest or that of the flame, is no smaller: the flow is then to be what it was before the first.
+  // residual, the largest or that of the flame above the limit, is no smaller: the flow is then to be what it was
+  // before the first.
   [[nodiscard]] bool takesBack() const { return takesBack_; }
 
   // What came of a step in time: heat that reactions release in the domain (W, or per metre of depth or radian), and

@@ -184,6 +184,16 @@ TEST(SteadySearch, IterationsThatRunAwayAreTakenBack) {
   EXPECT_THAT(search.whyNot(), HasSubstr("has grown"));
 }
 
+TEST(SteadySearch, AFlameAtRestIsKeptWhateverItsLastDigitsDo) {
+  SteadySearch search({.residual = 1e-7, .steps = 10});
+  for (int step = 0; step < 10; ++step) search.addStep(1.0, false);
+  search.addResidualOfStep({high, 1e-9});
+  search.addIteration({1e-3 * high, 9e-8}, 1.0);
+  for (int i = 0; i < 8; ++i) search.addFailure("too much");
+  EXPECT_EQ(search.phase(), Phase::Steps);
+  EXPECT_FALSE(search.takesBack());
+}
+
 // A trace's residual is a thousandth of what it was; the gas burns as no flame does.
 TEST(SteadySearch, WhatAFlameHasLostIsTakenBackWhateverATraceHasGained) {
   for (const double flame : {0.9e-3, 1e-3, 0.5}) {
