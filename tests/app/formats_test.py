@@ -133,7 +133,7 @@ def main(executable: str, *mpiexec: str) -> int:
         cold = ("'N2: 1'", "boundaries.fuel.composition='N2: 1'", "boundaries.oxidiser.composition='N2: 1'")
         runs["steady"] = (steady, *running.settings(f"initial={{layer: none, composition: {cold[0]}, temperature: 298 K}}", *cold[1:],
                                                     "boundaries.fuel.swirl_velocity=1 m/s", "time.steady.residual=0.9",
-                                                    "time.steady.stability={time: 0.1 ms, vectors: 2}", "time.steady.continuation={maximum_points: 2}"))
+                                                    "time.steady.stability={time: 0.1 ms, vectors: 2}", "time.steady.continuation={maximum_points: 2, key: pressure}"))
         for model in ("sa", "sst", "wray_agarwal", "k_epsilon"):
             runs[f"turbulent_{model}"] = (CASES / "flow/turbulent_channel/deck.yaml", *running.settings(
                 f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms", "output.boundaries=[wall]"))
