@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
@@ -190,8 +191,8 @@ std::string TurbulenceOperator::warning() const {
           ? fmt::format("the law of the wall, by which '{}' meets walls, holds up to {:g}", model_->name(), most)
       : model_->usesWallLaw() ? fmt::format(
                                     "the law of the wall, by which '{}' meets walls, holds from {:g} to {:g} and "
-                                    "below {:.1f} has no turbulence beside the wall",
-                                    model_->name(), least, most, walllaw::meeting)
+                                    "below {:.1f} makes less turbulence beside the wall, or none",
+                                    model_->name(), least, most, walllaw::meeting * std::numbers::sqrt2)
                               : fmt::format(
                                     "'{}', which resolves the layer beside walls, needs less than {:g} and better "
                                     "1",
