@@ -1,13 +1,17 @@
 #include "io/deck.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
+#include <iterator>
 #include <stdexcept>
 
 #include "core/text_file.hpp"
 #include "io/deck_check.hpp"
 #include "io/deck_former_names.hpp"
+#include "io/deck_former_sections.hpp"
 
 namespace lampblack::io {
 namespace {
@@ -52,8 +56,16 @@ Deck::Deck(std::string text, const std::filesystem::path& path, const std::vecto
   root_ = parseDeck(*source);
   for (std::size_t i = 0; i < overrides.size(); ++i) applyOverride(root_, *source, i);
   schema_ = std::make_shared<DeckSchema>(choose(*source, root_));
-  notes_ = replaceFormerNames(*source, *schema_, root_);
-  values_ = checkDeck(*source, root_, *schema_);
+  notes_ = moveFormerSections(*source, schema_->formerSections(), root_);
+  const std::vector<std::string> moved = notes_;
+  std::ranges::copy(replaceFormerNames(*source, *schema_, root_), std::back_inserter(notes_));
+  try {
+    values_ = checkDeck(*source, root_, *schema_);
+  } catch (const InputError& wrong) {
+    // Which speaks of keys as they are called now.
+    if (moved.empty()) throw;
+    throw InputError(fmt::format("{}\nnote: {}", wrong.what(), fmt::join(moved, "\nnote: ")));
+  }
   for (std::size_t i = 0; i < values_.size(); ++i) index_.emplace(values_[i].path, i);
 }
 

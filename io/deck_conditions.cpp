@@ -7,6 +7,7 @@
 #include <map>
 
 #include "io/deck_mistakes.hpp"
+#include "io/deck_value.hpp"
 
 namespace lampblack::io {
 namespace {
@@ -37,6 +38,20 @@ class Conditions {
  public:
   Conditions(const DeckSource& source, std::vector<DeckValue>& values) : source_(source), values_(values) {
     for (std::size_t i = 0; i < values.size(); ++i) index_.emplace(values[i].path, i);
+  }
+
+  // Defaults that depend on other keys.
+  void chooseDefaults() {
+    for (DeckValue& value : values_) {
+      if (!value.isDefault) continue;
+      for (const DeckDefault& other : value.key.otherDefaults) {
+        if (!std::ranges::all_of(other.conditions, [&](const auto& one) { return holds(one, value.path); })) continue;
+        DeckKey key = value.key;
+        key.defaultText = other.text;
+        value = defaultDeckValue(key, value.path);
+        break;
+      }
+    }
   }
 
   // `counts`: the enclosing section does.
@@ -72,15 +87,25 @@ class Conditions {
   void raise() const { mistakes_.raise(); }
 
  private:
+  [[nodiscard]] std::string valueOf(const std::string& path) const {
+    const auto found = index_.find(path);
+    return found == index_.end() ? "" : textOf(values_[found->second]);
+  }
+
+  [[nodiscard]] bool holds(const DeckCondition& condition, const std::string& path) const {
+    return std::ranges::find(condition.choices, valueOf(beside(condition.key, path))) != condition.choices.end() ||
+           std::ranges::any_of(condition.others, [&](const DeckCondition& other) { return holds(other, path); });
+  }
+
   // False where a condition does not hold of something the deck does not say; InputError where it says it.
   bool hold(const std::vector<DeckCondition>& conditions, const DeckNode* node, const std::string& path) const {
     for (const DeckCondition& condition : conditions) {
-      const std::string other = beside(condition.key, path);
-      const auto found = index_.find(other);
-      const std::string value = found == index_.end() ? "" : textOf(values_[found->second]);
-      if (std::find(condition.choices.begin(), condition.choices.end(), value) != condition.choices.end()) continue;
+      if (holds(condition, path)) continue;
       if (node == nullptr) return false;
-      const std::string wanted = fmt::format("{}", fmt::join(condition.choices, ", "));
+      const std::string other = beside(condition.key, path), value = valueOf(other);
+      std::string wanted = fmt::format("{}", fmt::join(condition.choices, ", "));
+      for (const DeckCondition& one : condition.others)
+        wanted += fmt::format("; or '{}': {}", beside(one.key, path), fmt::join(one.choices, ", "));
       throw deckError(
           source_, node->nameAt, path,
           value.empty()
@@ -98,9 +123,25 @@ class Conditions {
 
 }  // namespace
 
+std::string partsText(const std::vector<DeckCondition>& conditions) {
+  std::vector<std::string> parts;
+  for (const DeckCondition& condition : conditions) {
+    std::string part = fmt::format("`{}`: `{}`", condition.key, fmt::join(condition.choices, "`, `"));
+    for (const DeckCondition& other : condition.others)
+      part += fmt::format(" or `{}`: `{}`", other.key, fmt::join(other.choices, "`, `"));
+    parts.push_back(part);
+  }
+  return fmt::format("{}", fmt::join(parts, " and "));
+}
+
+std::string conditionText(const std::vector<DeckCondition>& conditions) {
+  return conditions.empty() ? "" : fmt::format("Only with {}.", partsText(conditions));
+}
+
 void applyConditions(const DeckSource& source, const SchemaNode& schema, const DeckNode& root,
                      std::vector<DeckValue>& values) {
   Conditions conditions(source, values);
+  conditions.chooseDefaults();
   conditions.apply(schema, &root, "", true);
   conditions.raise();
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/nearest_name.hpp"
+#include "io/deck_former_sections.hpp"
 
 namespace lampblack::io {
 namespace {
@@ -75,9 +76,7 @@ class FormerNames {
   }
 
   void note(const DeckLocation& at, const std::string& former, const std::string& present) {
-    notes_.push_back(
-        fmt::format("{}: {} is called {} since version {}; write the new name, as version {} does not read the old one",
-                    deckPlace(source_, at), former, present, presentNamesBegin, formerNamesEnd));
+    notes_.push_back(formerNote(source_, at, fmt::format("{} is called {}", former, present), "write the new name"));
   }
 
   const DeckSource& source_;

@@ -68,9 +68,11 @@ void writeMarkdown(const Node& node, int level, std::string& out) {
   std::string rows;
   for (const Node& child : node.children) {
     if (child.key == nullptr) continue;
-    const std::string standard = child.key->presence == Presence::defaulted  ? "`" + child.key->defaultText + "`"
-                                 : child.key->presence == Presence::optional ? "-"
-                                                                             : "**required**";
+    std::string standard = child.key->presence == Presence::defaulted  ? "`" + child.key->defaultText + "`"
+                           : child.key->presence == Presence::optional ? "-"
+                                                                       : "**required**";
+    for (const DeckDefault& other : child.key->otherDefaults)
+      standard += fmt::format("; `{}` with {}", other.text, partsText(other.conditions));
     rows += fmt::format("| `{}` | {} | {} | {} |\n", cell(child.path), cell(typeText(*child.key)), cell(standard),
                         cell(meaning(*child.key)));
   }
@@ -180,6 +182,12 @@ void writeMap(const Node& node, JsonWriter& json) {
   // A section may be left with nothing in it ("output:").
   json.key("type").beginArray().value("object").value("null").endArray();
   json.key("properties").beginObject();
+  for (const auto& [former, present] : node.formerSections) {
+    json.key(former).beginObject();
+    json.field("description",
+               fmt::format("Its keys stand in '{}'; version {} does not read it.", present, formerNamesEnd));
+    json.key("deprecated").value(true).endObject();
+  }
   for (const Node& child : node.children) {
     if (child.name == "*" || child.name == "[]") continue;
     json.key(child.name);

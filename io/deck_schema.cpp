@@ -25,6 +25,11 @@ DeckKey& DeckKey::byDefault(std::string text) {
   return *this;
 }
 
+DeckKey& DeckKey::byDefault(std::string text, std::vector<DeckCondition> where) {
+  otherDefaults.push_back({std::move(text), std::move(where)});
+  return *this;
+}
+
 DeckKey& DeckKey::atLeast(double si) {
   minimum = Bound{si, false};
   return *this;
@@ -67,7 +72,11 @@ DeckKey& DeckKey::formerly(std::string before, std::string now) {
 }
 
 DeckKey& DeckKey::onlyWith(std::string otherKey, std::vector<std::string> otherChoices) {
-  conditions.push_back({std::move(otherKey), std::move(otherChoices)});
+  return onlyWith(DeckCondition{std::move(otherKey), std::move(otherChoices)});
+}
+
+DeckKey& DeckKey::onlyWith(DeckCondition condition) {
+  conditions.push_back(std::move(condition));
   return *this;
 }
 
@@ -145,13 +154,6 @@ std::string expectation(const DeckKey& key) {
   return key.count ? fmt::format("a list of {}, each {}", *key.count, one) : fmt::format("a list, each item {}", one);
 }
 
-std::string conditionText(const std::vector<DeckCondition>& conditions) {
-  std::vector<std::string> parts;
-  for (const DeckCondition& condition : conditions)
-    parts.push_back(fmt::format("`{}`: `{}`", condition.key, fmt::join(condition.choices, "`, `")));
-  return parts.empty() ? "" : fmt::format("Only with {}.", fmt::join(parts, " and "));
-}
-
 const DeckSchema::Node* DeckSchema::Node::child(const std::string& childName) const {
   for (const Node& node : children) {
     if (node.name == childName) return &node;
@@ -216,8 +218,27 @@ DeckSchema& DeckSchema::add(const DeckSchema& other) {
   return *this;
 }
 
+DeckSchema& DeckSchema::add(DeckSchema other, const DeckCondition& onlyWith) {
+  const auto isInSection = [&](const std::string& path) {
+    return std::ranges::any_of(other.sections_, [&](const DeckSection& part) {
+      return path.size() > part.path.size() && isWithin(path, part.path);
+    });
+  };
+  for (DeckKey& key : other.keys_)
+    if (!isInSection(key.path)) key.conditions.push_back(onlyWith);
+  for (DeckSection& part : other.sections_)
+    if (!isInSection(part.path)) part.conditions.push_back(onlyWith);
+  return add(other);
+}
+
+DeckSchema& DeckSchema::formerly(FormerSections sections) {
+  former_ = std::move(sections);
+  return *this;
+}
+
 void DeckSchema::checkConditions(const std::string& path, const std::vector<DeckCondition>& conditions) const {
   for (const DeckCondition& condition : conditions) {
+    checkConditions(path, condition.others);
     const auto other =
         std::find_if(keys_.begin(), keys_.end(), [&](const DeckKey& key) { return key.path == condition.key; });
     if (other == keys_.end())
@@ -249,8 +270,11 @@ DeckSchema::Node DeckSchema::tree() const {
   };
   for (const DeckKey& key : keys_) {
     checkConditions(key.path, key.conditions);
+    for (const DeckDefault& other : key.otherDefaults) checkConditions(key.path, other.conditions);
     place(key.path)->key = &key;
   }
+  for (const auto& [former, present] : former_.table)
+    if (former.find('.') == std::string::npos) root.formerSections.emplace_back(former, present);
   for (const DeckSection& section : sections_) {
     checkConditions(section.path, section.conditions);
     place(section.path)->section = &section;

@@ -18,6 +18,7 @@
 //       .section("left", Presence::optional, "...", {{"flame.type", {"counterflow"}}});
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -44,11 +45,18 @@ struct Bound {
   bool exclusive = false;
 };
 
-// A condition: a key counts only where another key, a choice or true or false, has one of these values. A `*` or `[]`
-// of its path is the same name or item as in the path of what it is said of.
+// A condition: a key counts only where another key, a choice or true or false, has one of these values, or where one of
+// the others holds. A `*` or `[]` of its path is the same name or item as in the path of what it is said of.
 struct DeckCondition {
   std::string key;
   std::vector<std::string> choices;
+  std::vector<DeckCondition> others = {};
+};
+
+// A default that holds where all of the conditions do.
+struct DeckDefault {
+  std::string text;
+  std::vector<DeckCondition> conditions;
 };
 
 // One key. Made by the functions below; required until told otherwise.
@@ -59,7 +67,9 @@ class DeckKey {
 
   DeckKey& optional();
   DeckKey& byDefault(std::string text);  // as it would stand in a deck: "1 atm", "[0, 0, 1]", "true"
-  DeckKey& atLeast(double si);           // range, inclusive
+  // Another default where all of these conditions hold; of several the first that does.
+  DeckKey& byDefault(std::string text, std::vector<DeckCondition> where);
+  DeckKey& atLeast(double si);  // range, inclusive
   DeckKey& atMost(double si);
   DeckKey& above(double si);  // range, exclusive
   DeckKey& below(double si);
@@ -72,6 +82,7 @@ class DeckKey {
   DeckKey& formerly(std::string before, std::string now);
   // The key counts only with these choices of another key; said twice, both have to hold.
   DeckKey& onlyWith(std::string otherKey, std::vector<std::string> otherChoices);
+  DeckKey& onlyWith(DeckCondition condition);
 
   std::string path;
   KeyType type;
@@ -82,6 +93,7 @@ class DeckKey {
   std::vector<std::pair<std::string, std::string>> formerChoices;  // before, now
   Presence presence = Presence::required;
   std::string defaultText;
+  std::vector<DeckDefault> otherDefaults;
   std::optional<Bound> minimum;
   std::optional<Bound> maximum;
   bool isList = false;
@@ -103,6 +115,8 @@ std::string expectation(const DeckKey& key);
 // The same limits in words, without the type: "above 0 K", "0 to 1"; empty when there are none.
 std::string rangeText(const DeckKey& key);
 
+// "`flame.type`: `wall`, `counterflow`", of several conditions with "and" in between.
+std::string partsText(const std::vector<DeckCondition>& conditions);
 // "Only with `flame.type`: `wall`, `counterflow`."; empty without conditions.
 std::string conditionText(const std::vector<DeckCondition>& conditions);
 
@@ -116,14 +130,27 @@ struct DeckSection {
   std::vector<DeckCondition> conditions;  // of everything in it
 };
 
+// Sections that former versions had, whose keys stand elsewhere now (io/deck_former_sections.hpp).
+struct FormerSections {
+  // Paths then and now, of a section (top level) or of a key in one; a key without a line has that of its section.
+  std::vector<std::pair<std::string, std::string>> table;
+  // Of a deck before its keys move: says in the tree what the sections said by being there, and returns that as the
+  // note of the first is to have it, "'description: ensemble'"; or adds a note of its own. May be empty. InputError.
+  std::function<std::vector<std::string>(const DeckSource&, DeckNode& root, std::vector<std::string>& notes)> settle;
+};
+
 class DeckSchema {
  public:
   // std::logic_error for a path declared twice, a key that is also a section, and a former name that is another key.
   DeckSchema& add(DeckKey key);
   DeckSchema& section(std::string path, Presence presence, std::string doc, std::vector<DeckCondition> onlyWith = {});
   DeckSchema& add(const DeckSchema& other);  // everything another schema declares
+  // The same, of which all counts only under this condition too.
+  DeckSchema& add(DeckSchema other, const DeckCondition& onlyWith);
+  DeckSchema& formerly(FormerSections sections);
 
   [[nodiscard]] const std::vector<DeckKey>& keys() const { return keys_; }
+  [[nodiscard]] const FormerSections& formerSections() const { return former_; }
 
   // The same declarations as a tree, one node for each part of a path, in order of declaration.
   struct Node {
@@ -131,6 +158,7 @@ class DeckSchema {
     std::string path;  // "boundaries.*"
     const DeckKey* key = nullptr;
     const DeckSection* section = nullptr;
+    std::vector<std::pair<std::string, std::string>> formerSections;  // of the root: names then and now
     std::vector<Node> children;
 
     [[nodiscard]] const Node* child(const std::string& childName) const;  // exact, nullptr if none
@@ -146,6 +174,7 @@ class DeckSchema {
 
   std::vector<DeckKey> keys_;
   std::vector<DeckSection> sections_;
+  FormerSections former_;
 };
 
 // Decks of several kinds, told apart by the choice at one key of the top level ("problem"). The schema of each kind

@@ -1,4 +1,4 @@
-// The section `stochastic` of every problem: the ensembles of particles that it asks for.
+// Ensembles of soot (`particles.description: ensemble`).
 #pragma once
 
 #include <cstddef>
@@ -17,12 +17,10 @@ struct EnsembleRequest {
   SizeBins bins;
 };
 
-// The section, described for the problem, with the keys that all problems have; `method` and `number`: the default
-// method and number of numerical particles.
-void addEnsembleKeys(DeckSchema& schema, const std::string& description, const std::string& method = "sammc",
-                     const std::string& number = "2000");
+// The keys of ensembles of soot; `method`: the default one.
+void addEnsembleKeys(DeckSchema& schema, const std::string& method);
 
-// Of a deck with the section. `soot`: what the section `soot` says of PAH, surface and switches. InputError, pointing
+// Of a deck with an ensemble of soot. `soot`: what the section says of PAH, surface and switches. InputError, pointing
 // into the deck.
 [[nodiscard]] EnsembleRequest readEnsemble(const Deck& deck, const SootModelOptions& soot);
 

@@ -158,11 +158,11 @@ void addDistribution(DeckSchema& schema, const std::string& at, Presence presenc
                        .optional()
                        .above(0);
   if (presence == Presence::optional) {
-    type = choiceKey(key, {"monodisperse", "exponential", "lognormal", "table"},
-                     "Distribution of the volumes of the spheres (lognormal: of their diameters); table: from a file. "
-                     "Absent: all are alike, of the units given.")
+    type = choiceKey(key, {"monodisperse", "exponential", "lognormal", "table", "none"},
+                     "Distribution of the volumes of the spheres (lognormal: of their diameters); table: from a file; "
+                     "none: no particles. Absent: all are alike, of the units given, or none are there.")
                .optional();
-    number.doc = "Number of spheres that there are at the start, but of a table, which has it; with 'units'.";
+    number.doc = "Number density of the spheres that there are at the start; a table has its own.";
   } else {
     number.onlyWith(key, spread);
   }
@@ -186,8 +186,10 @@ void addDistribution(DeckSchema& schema, const std::string& at, Presence presenc
 
 InitialPopulation readDistribution(const Deck& deck, const std::string& section) {
   using Distribution = InitialPopulation::Distribution;
-  const std::string type = deck.choice(section + ".distribution");
+  const std::string type = deck.optionalString(section + ".distribution").value_or("none");
   InitialPopulation initial;
+  if (type == "none" && deck.has(section + ".number"))
+    throw deck.error(section, "particles at the start need a 'distribution' of their sizes");
   if (type == "none") return initial;
   const std::string who = fmt::format("the initial distribution {}", type);
   const auto require = [&](const char* key) {

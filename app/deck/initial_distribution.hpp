@@ -27,8 +27,7 @@ InitialPopulation readDistribution(const Deck& deck, const std::string& section)
 
 // Keys of the section and of the items of a list in its place.
 void addInitialDistribution(DeckSchema& schema, const std::string& section);
-// Of soot, of cells.
-inline constexpr const char* sootAtStart = "soot.initial";
+// Of a section that says which distribution or none, and of `particles.initial`, which may have none.
 InitialPopulation readInitialDistribution(const Deck& deck, const std::string& section);
 // The section, or each item of a list in its place: "initial", or "initial[0]", "initial[1]".
 std::vector<std::string> itemsOf(const Deck& deck, const std::string& section);

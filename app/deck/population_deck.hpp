@@ -1,4 +1,4 @@
-// The stochastic population that a deck asks for: one table says which section makes which kind, for all places.
+// The stochastic population that a deck asks for, of either kind, for all places.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,6 @@
 namespace lampblack::app {
 
 struct PopulationRequest {
-  std::string section;  // of the deck, which says what the particles are like
   MakePopulation make;
   std::string material = {};
   std::vector<std::string> elements = {};  // of the particles
@@ -36,15 +35,10 @@ struct PopulationRequest {
   std::vector<Classes> classes;
 };
 
-// Whether a deck asks for one.
-[[nodiscard]] bool hasPopulation(const Deck& deck);
-// Of a deck that does, for reactors and along a given gas; for the paths of a flame, where a model may stand beside it,
-// and the section `stochastic`, which says where the paths are, beside another; for the cells of a flow with the
-// section `stochastic`, whose random numbers begin with `seed`; and along trajectories through the flow. InputError,
-// pointing into the deck.
+// Of a deck that asks for one (hasPopulation): in reactors, along a given gas and along the paths of a flame; for the
+// cells of a flow, whose random numbers begin with `seed`; and along trajectories through the flow, where a deck with a
+// model has an ensemble of its soot. InputError, pointing into the deck.
 [[nodiscard]] PopulationRequest readPopulation(const Deck& deck, const std::shared_ptr<const Mechanism>& mechanism);
-[[nodiscard]] PopulationRequest readFlamePopulation(const Deck& deck,
-                                                    const std::shared_ptr<const Mechanism>& mechanism);
 [[nodiscard]] PopulationRequest readCellPopulation(const Deck& deck, const std::shared_ptr<const Mechanism>& mechanism,
                                                    std::uint64_t seed);
 [[nodiscard]] PopulationRequest readTrajectoryPopulation(const Deck& deck,

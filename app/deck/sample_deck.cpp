@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "app/deck/particles_deck.hpp"
 #include "io/request_limits.hpp"
 
 namespace lampblack::app {
@@ -15,43 +16,45 @@ DeckKey sampleNumberKey(const std::string& section, const std::string& number) {
       .atMost(100000000);
 }
 
-void addSplitToleranceKey(DeckSchema& schema, const std::string& section, const std::string& splitTolerance) {
-  schema.add(
-      numberKey(section + ".split_tolerance",
-                "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
-          .byDefault(splitTolerance)
-          .above(0)
-          .atMost(1));
+DeckKey splitToleranceKey(const std::string& section, const std::string& splitTolerance) {
+  return numberKey(
+             section + ".split_tolerance",
+             "Largest relative change of the population in a splitting step: smaller is more accurate and slower.")
+      .byDefault(splitTolerance)
+      .above(0)
+      .atMost(1);
 }
 
-void addRepeatKeys(DeckSchema& schema, const std::string& section) {
-  schema
-      .add(integerKey(section + ".repeats", "Number of independent repeats, from which mean and confidence follow.")
+void addRepeatKeys(DeckSchema& schema) {
+  DeckSchema part;
+  part.add(integerKey("particles.repeats", "Number of independent repeats, from which mean and confidence follow.")
                .byDefault("8")
                .atLeast(2)
                .atMost(100000))
-      .add(integerKey(section + ".seed",
+      .add(integerKey("particles.seed",
                       "Start of the random numbers: another seed gives another sample, the same seed the same result.")
                .byDefault("1")
                .atLeast(0));
+  schema.add(part, ofPopulations());
 }
 
-void addCouplingKeys(DeckSchema& schema, const std::string& section) {
-  schema
-      .add(choiceKey(
-               section + ".coupling", {"splitting", "predictor_corrector"},
+void addCouplingKeys(DeckSchema& schema) {
+  DeckSchema part;
+  part.add(choiceKey(
+               "particles.coupling", {"splitting", "predictor_corrector"},
                "How gas and particles go on together, both of second order. splitting: half a step of the gas, the "
                "particles, half a step of the gas (Strang 1968); predictor_corrector: the gas with the exchange that "
                "is expected, the particles in its mean, the difference, for species that live shorter than a step; "
                "not in networks.")
                .byDefault("splitting"))
       .add(numberKey(
-               section + ".coupling_change",
+               "particles.coupling_change",
                "Steps of the coupling are so long that a concentration which the particles see changes by about this "
                "part of itself, or the temperature by this part of 200 K.")
                .byDefault("0.05")
                .above(0)
                .atMost(1));
+  schema.add(part, ofPopulations());
 }
 
 void addSizeBinKeys(DeckSchema& schema, const std::string& section, const std::string& largest) {

@@ -1,4 +1,4 @@
-// Keys that every section of stochastic particles has, whatever these are made of: how many numerical particles, how
+// Keys that all stochastic particles have, whatever these are made of: how many numerical particles, how
 // finely they are split from their gas, how often a run is repeated, and the bins of their size distributions.
 #pragma once
 
@@ -13,11 +13,11 @@ namespace lampblack::app {
 
 // `number` of `section`, with its default.
 [[nodiscard]] DeckKey sampleNumberKey(const std::string& section, const std::string& number);
-void addSplitToleranceKey(DeckSchema& schema, const std::string& section, const std::string& splitTolerance);
+[[nodiscard]] DeckKey splitToleranceKey(const std::string& section, const std::string& splitTolerance);
 // Of problems whose populations are repeated: how often, and with which random numbers.
-void addRepeatKeys(DeckSchema& schema, const std::string& section);
+void addRepeatKeys(DeckSchema& schema);
 // How the particles and their gas go on together.
-void addCouplingKeys(DeckSchema& schema, const std::string& section);
+void addCouplingKeys(DeckSchema& schema);
 // The bins of size distributions, with their default largest diameter.
 void addSizeBinKeys(DeckSchema& schema, const std::string& section, const std::string& largest = "500 nm");
 

@@ -1,4 +1,4 @@
-// The section `soot` of every problem: its keys, and the model it asks for.
+// Soot in the section `particles`: PAH, surface and switches, and the models that the gas carries.
 #pragma once
 
 #include <memory>
@@ -14,21 +14,21 @@
 
 namespace lampblack::app {
 
-// The keys, for the schema of a problem. An absent section is no soot.
-void addSootModelKeys(DeckSchema& schema, const std::vector<SootModelEntry>& models = sootModels());
+// The keys of PAH, surface and switches, and those of the models.
+void addSootModelKeys(DeckSchema& schema, const std::vector<SootModelEntry>& models);
 
-// The model that a deck asks for, with the mechanism's atomic weights; empty for `model: none` and for a deck without
-// the section. InputError, pointing into the deck, for what the mechanism or the model cannot do.
+// The model that the gas carries, with the mechanism's atomic weights; empty where it carries none. InputError,
+// pointing into the deck, for what the mechanism or the model cannot do.
 [[nodiscard]] std::unique_ptr<ParticleModel> readSootModel(const Deck& deck, const Mechanism& mechanism,
                                                            const std::vector<SootModelEntry>& models = sootModels());
 
-// What to do where soot outgrows the sections of its model (`soot.sectional.overflow`).
+// What to do where soot outgrows the sections of its model (`particles.sectional.overflow`).
 inline constexpr const char* tooFewSections =
-    "More sections ('soot.sectional.sections') or a larger 'soot.sectional.factor' help; 'soot.sectional.overflow: 1' "
-    "only counts it";
+    "More sections ('particles.sectional.sections') or a larger 'particles.sectional.factor' help; "
+    "'particles.sectional.overflow: 1' only counts it";
 
-// `soot.pah`, with the sticking coefficients of `soot.sticking` where that key exists and is given, else the published
-// ones (Blanquart and Pitsch 2009) or those of the law behind them. InputError for what is not a hydrocarbon.
+// `particles.pah`, with the sticking coefficients of `particles.sticking` where that key exists and is given, else the
+// published ones (Blanquart and Pitsch 2009) or those of the law behind them. InputError for what is not a hydrocarbon.
 [[nodiscard]] std::vector<PahSpecies> readPahSpecies(const Deck& deck, const Mechanism& mechanism);
 
 // `active_sites` and `keep_hydrogen` of `section`, which say how stochastic particles of soot take part.
@@ -40,7 +40,7 @@ struct SootWeights {
 // The mechanism's. InputError where it lacks one of the two.
 [[nodiscard]] SootWeights readSootWeights(const Deck& deck, const Mechanism& mechanism);
 
-// What the section `soot` says of surface, PAH and switches, with the mechanism's atomic weights; what it leaves open
+// What the section says of surface, PAH and switches, with the mechanism's atomic weights; what it leaves open
 // as in `defaults`, or as published with its model.
 [[nodiscard]] SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechanism,
                                                     SootModelOptions defaults);
@@ -52,7 +52,7 @@ template <class Model, class Options>
   try {
     return std::make_unique<Model>(options);
   } catch (const InputError& error) {
-    throw deck.error("soot", error.what());
+    throw deck.error("particles", error.what());
   }
 }
 

@@ -7,42 +7,42 @@
 #include <vector>
 
 #include "app/deck/fragmentation_deck.hpp"
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/tools/gas_input.hpp"
 
 namespace lampblack::app {
 namespace {
 
-const std::string materialKey = "particles.material", ownTable = "particles.table.";
+const std::string ownTable = "particles.table.";
 
 void addReactions(DeckSchema& schema) {
-  const std::vector<std::string> withSites{"silica", "table"}, soot{"soot"};
   schema
       .add(quantityKey("particles.growth_rate", units::volume / units::amount / units::time,
                        "Rate constant of the surface reaction for each site; silica: 1e13 cm^3/mol/s.")
                .optional()
                .atLeast(0)
-               .onlyWith(materialKey, withSites))
+               .onlyWith(ofOtherMaterials()))
       .add(quantityKey("particles.growth_energy", units::molarEnergy, "Activation energy of the surface reaction.")
                .byDefault("0 J/mol")
                .atLeast(0)
-               .onlyWith(materialKey, withSites))
+               .onlyWith(ofOtherMaterials()))
       .add(booleanKey("particles.intra_particle",
                       "Whether pairs of sites react within particles as fast as molecules react with sites; silica "
                       "then tends to SiO2 (Shekar et al. 2011, eq. 59, bounded at zero).")
                .byDefault("true")
-               .onlyWith(materialKey, withSites))
+               .onlyWith(ofOtherMaterials()))
       .add(choiceKey("particles.burnt_primaries", {"break", "join"},
                      "What becomes of a particle of which a primary has burnt away. break: the parts that it held "
                      "together go apart (as Neoh, Howard, Sarofim 1985 saw); join: they touch its closest neighbour.")
                .byDefault("break")
-               .onlyWith(materialKey, soot));
-  for (DeckKey& key : sootParticleKeys("particles")) schema.add(key.onlyWith(materialKey, soot));
+               .onlyWith(ofTrees())
+               .onlyWith(ofSoot()));
   auto [breaks, factor] =
       fragmentationKeys("particles",
                         "Whether oxidation breaks aggregates at their necks, also where no primary has "
                         "burnt away: into the two parts of a neck, which is drawn.");
-  schema.add(breaks.onlyWith(materialKey, soot)).add(factor.onlyWith(materialKey, soot));
+  for (DeckKey* key : {&breaks, &factor}) schema.add(key->onlyWith(ofTrees()).onlyWith(ofSoot()));
 }
 
 void addTable(DeckSchema& schema) {
@@ -86,6 +86,8 @@ void addTable(DeckSchema& schema) {
 
 void addSintering(DeckSchema& schema) {
   const std::string s = "particles.sintering.";
+  schema.section("particles.sintering", Presence::defaulted, "How primaries that touch become one.",
+                 {ofTreesOrOtherMaterials()});
   schema
       .add(choiceKey(s + "mechanism",
                      {"viscous_flow", "grain_boundary", "surface_diffusion", "volume_diffusion", "constant", "none"},
@@ -113,18 +115,18 @@ void addSintering(DeckSchema& schema) {
                      "The size d in the law: that of the smaller of two neighbours (Shekar et al. 2011), or 6 V/S of "
                      "what sinters.")
                .byDefault("smaller")
-               .onlyWith("particles.shape", {"trees"}))
+               .onlyWith(ofTrees()))
       .add(choiceKey(s + "between", {"neighbours", "parts"},
                      "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate "
                      "that a collision joined, with the whole volume and surface of both, as the program MOpS does.")
                .byDefault("neighbours")
-               .onlyWith("particles.shape", {"trees"}))
+               .onlyWith(ofTrees()))
       .add(
           choiceKey(s + "inner_parts", {"sphere", "nothing"},
                     "What the surface of parts within an aggregate goes towards where parts sinter: that of the sphere "
                     "of their volume; or nothing, as the program MOpS computes it.")
               .byDefault("sphere")
-              .onlyWith("particles.shape", {"trees"}));
+              .onlyWith(ofTrees()));
 }
 
 SinteringMechanism mechanismOf(const std::string& name) {
@@ -160,15 +162,10 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
 }
 
 TreeMaterial readSoot(const Deck& deck, const Mechanism& mechanism) {
-  if (!deck.has("soot")) throw deck.error(materialKey, "soot needs the section 'soot': PAH, surface, switches");
-  for (const auto& [key, other] :
-       {std::pair{"particles.density", "soot.density"}, std::pair{"particles.enhancement", "soot.van_der_waals"},
-        std::pair{"particles.slip", "soot.slip"}, std::pair{"particles.coagulation", "soot.coagulation"}})
-    if (deck.isGiven(key)) throw deck.error(key, fmt::format("of soot this is '{}'; leave it out here", other));
   SootReactions reactions;
   reactions.soot = readSootModelOptions(deck, mechanism);
   if (reactions.soot.inceptionBy == InceptionBy::monomers && reactions.soot.pah.size() != 1)
-    throw deck.error("soot.pah", "nuclei of monomers need one PAH, of which two molecules make a nucleus");
+    throw deck.error("particles.pah", "nuclei of monomers need one PAH, of which two molecules make a nucleus");
   reactions.alphaOfPrimaries = deck.choice("particles.active_sites") == "primary";
   reactions.keepsHydrogen = deck.boolean("particles.keep_hydrogen");
   reactions.breaksUp = deck.choice("particles.burnt_primaries") == "break";
@@ -229,33 +226,15 @@ TreeMaterial readTable(const Deck& deck) {
 
 }  // namespace
 
-void addTreeMaterialKeys(DeckSchema& schema, const std::string& description) {
-  schema.section("particles", Presence::optional, description)
-      .add(choiceKey(materialKey, {"silica", "soot", "table"},
-                     "What primaries are made of. silica: Si, O and OH from H4O4SI, which is Si(OH)4, giving back H2O "
-                     "(Shekar, Smith, Kraft, Wagner 2011). Its constants are those below where they are not given; "
-                     "rates of sintering and of the surface reaction "
-                     "as in the input of the program MOpS. soot: C and H, by the PAH, surface and switches of the "
-                     "section soot; table: components and reactions of particles.table.")
-               .byDefault("silica"))
-      .add(quantityKey("particles.density", units::density,
-                       "Density of primaries; silica: 2200 kg/m^3; of soot it is soot.density.")
-               .optional()
-               .above(0))
-      .add(numberKey("particles.fractal_dimension",
-                     "Fractal dimension of aggregates, for their diameter of collision; silica and soot: 1.8, a table: "
-                     "3.")
-               .optional()
-               .atLeast(1)
-               .atMost(3))
-      .add(
-          numberKey("particles.smoothing",
-                    "Surface that the contacts of a primary gain as it grows: 0 none, so that it rounds off, 2 as much "
-                    "as keeps its shape.")
-              .byDefault("1")
-              .atLeast(0)
-              .atMost(2)
-              .onlyWith("particles.shape", {"trees"}));
+void addTreeMaterialKeys(DeckSchema& schema) {
+  schema.add(
+      numberKey("particles.smoothing",
+                "Surface that the contacts of a primary gain as it grows: 0 none, so that it rounds off, 2 as much "
+                "as keeps its shape.")
+          .byDefault("1")
+          .atLeast(0)
+          .atMost(2)
+          .onlyWith(ofTrees()));
   addReactions(schema);
   addTable(schema);
   addSintering(schema);
@@ -263,8 +242,6 @@ void addTreeMaterialKeys(DeckSchema& schema, const std::string& description) {
 
 TreeMaterial readTreeMaterial(const Deck& deck, const Mechanism& mechanism) {
   const std::string name = deck.choice(materialKey);
-  if (name != "soot" && deck.has("soot"))
-    throw deck.error("soot", "particles of the section 'particles' take the place of soot; leave out one of the two");
   TreeMaterial m = name == "silica" ? silica() : name == "soot" ? readSoot(deck, mechanism) : readTable(deck);
   if (const auto density = deck.optionalQuantity("particles.density")) m.density = *density;
   if (const auto dimension = deck.optionalNumber("particles.fractal_dimension")) m.fractalDimension = *dimension;

@@ -1,4 +1,4 @@
-// What the primaries of the section `particles` of a reactor are made of.
+// What the primaries of trees are made of, how they react and how they sinter.
 #pragma once
 
 #include "chemistry/mechanism/mechanism.hpp"
@@ -8,8 +8,7 @@
 
 namespace lampblack::app {
 
-// Opens the section, described for the problem.
-void addTreeMaterialKeys(DeckSchema& schema, const std::string& description);
+void addTreeMaterialKeys(DeckSchema& schema);
 
 // With how it sinters. InputError, pointing into the deck.
 [[nodiscard]] TreeMaterial readTreeMaterial(const Deck& deck, const Mechanism& mechanism);

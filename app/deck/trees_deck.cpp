@@ -8,6 +8,7 @@
 #include <string>
 
 #include "app/deck/initial_distribution.hpp"
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/tree_material_deck.hpp"
 #include "app/run/warnings.hpp"
@@ -24,58 +25,27 @@ void addProcesses(DeckSchema& schema) {
                .byDefault("1e-3")
                .atLeast(0)
                .atMost(0.1))
-      .add(
-          choiceKey("particles.shape", {"trees", "surface_volume"},
-                    "trees: primaries that share surface; surface_volume: particles by their volume and surface alone, "
-                    "which collisions add up, growth makes rounder (Patterson, Kraft 2007) and sintering takes to the "
-                    "sphere's, dS/dt = -(S - S_sphere)/tau(6V/S) (Koch, Friedlander 1990). Of silica and of a table; "
-                    "soot by volume and surface is stochastic.shape.")
-              .byDefault("trees"))
-      .add(booleanKey("particles.coagulation", "Whether particles collide and stick; of soot it is soot.coagulation.")
-               .byDefault("true"))
       .add(choiceKey("particles.kernel", {"transition", "free_molecular", "continuum"},
                      "Collision rates: harmonic mean of the two limits, or one of them.")
-               .byDefault("transition"))
+               .byDefault("transition")
+               .onlyWith(ofTreesOrOtherMaterials()))
       .add(choiceKey(
-               "particles.inception", {"coagulation", "free_molecular"},
+               "particles.inception_kernel", {"coagulation", "free_molecular"},
                "Collision rate of two molecules that become a particle: coagulation, by the kernel of particles with "
                "their enhancement; free_molecular, without enhancement (Shekar et al. 2011, eq. 25).")
                .byDefault("coagulation")
-               .onlyWith("particles.material", {"silica", "table"}))
-      .add(numberKey("particles.enhancement",
-                     "Factor of free-molecular collisions by van der Waals forces; of soot it is soot.van_der_waals.")
-               .byDefault("2.2")
-               .above(0))
-      .add(choiceKey("particles.slip", {"air", "davies"},
-                     "Slip correction; of soot it is soot.slip. air: 1 + 1.257 Kn, Kn that of air at the gas's "
-                     "temperature and pressure (Shekar et "
-                     "al. 2011, eqs. 37, 38); davies: Davies (1945), by the gas's mean free path.")
-               .byDefault("air"))
+               .onlyWith(ofOtherMaterials()))
       .add(choiceKey(
                "particles.collision_size", {"primaries", "volume_to_surface"},
                "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter "
                "of primaries (Shekar et al. 2011, eqs. 17, 18), or 6 V/S of the particle, by which a particle that has "
-               "become a sphere has its diameter. Absent: volume_to_surface for soot, primaries for other materials.")
-               .optional()
-               .onlyWith("particles.shape", {"trees"}));
+               "become a sphere has its diameter.")
+               .byDefault("primaries")
+               .byDefault("volume_to_surface", {ofSoot()})
+               .onlyWith(ofTrees()));
 }
 
 constexpr const char* initial = "particles.initial";
-
-// Of the runs of all problems that repeat them.
-void addRuns(DeckSchema& schema) {
-  addTreeStartKeys(schema);
-  schema.add(quantityKey(
-                 "particles.expected_number", units::perVolume,
-                 "Expected largest number density: an empty sample is full when it first reaches this density. A value "
-                 "far too large leaves the sample small and noisy, which the report says; with a value far too "
-                 "small particles are removed at random, which is right in the mean.")
-                 .formerly("full_at")
-                 .byDefault("1e18 1/m^3")
-                 .above(0));
-  addRepeatKeys(schema, "particles");
-  addSizeBinKeys(schema, "particles");
-}
 
 DeckKey tablesAt() {
   return quantityKey("particles.tables_at", units::time,
@@ -84,12 +54,12 @@ DeckKey tablesAt() {
       .list()
       .optional()
       .atLeast(0)
-      .onlyWith("particles.shape", {"trees"});
+      .onlyWith(ofTrees());
 }
 
 void addClasses(DeckSchema& schema) {
-  schema
-      .add(quantityKey("particles.classes.collision_diameter", units::length,
+  DeckSchema part;
+  part.add(quantityKey("particles.classes.collision_diameter", units::length,
                        "Diameters of collision between which particles are classes with averages of their own: "
                        "classes_collision_diameter.csv, such as [50 nm, 200 nm] for three classes.")
                .list()
@@ -101,6 +71,7 @@ void addClasses(DeckSchema& schema) {
                .list()
                .optional()
                .above(0));
+  schema.add(part, ofTreesOrOtherMaterials());
 }
 
 // Ends of classes, rising.
@@ -144,7 +115,13 @@ std::vector<double> readTablesAt(const Deck& deck) {
 
 }  // namespace
 
-void addTreeStartKeys(DeckSchema& schema) {
+void addTreeKeys(DeckSchema& schema) {
+  addTreeMaterialKeys(schema);
+  addProcesses(schema);
+}
+
+void addStartKeys(DeckSchema& schema, const std::vector<DeckCondition>& conditions) {
+  schema.section(initial, Presence::defaulted, "The particles that are there at the start.", conditions);
   for (const std::string& at : {std::string(initial), std::string(initial) + "[]"}) {
     addDistribution(schema, at, Presence::optional);
     schema.add(numberKey(at + ".units",
@@ -152,57 +129,49 @@ void addTreeStartKeys(DeckSchema& schema) {
                          "distribution their proportions.")
                    .list()
                    .optional()
-                   .atLeast(0));
+                   .atLeast(0)
+                   .onlyWith(ofTreesOrOtherMaterials()));
   }
   schema.section(std::string(initial) + "[]", Presence::defaulted,
                  "In place of the keys of `particles.initial` a list of maps, one a mode: all of them are there.");
 }
 
-void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& number) {
-  addTreeMaterialKeys(schema, description);
-  addProcesses(schema);
-  schema.add(sampleNumberKey("particles", number));
-  addSplitToleranceKey(schema, "particles", "0.05");
+void addTreeRunKeys(DeckSchema& schema) {
+  addStartKeys(schema, {ofTreesOrOtherMaterials()});
+  schema.add(quantityKey(
+                 "particles.expected_number", units::perVolume,
+                 "Expected largest number density: an empty sample is full when it first reaches this density. A value "
+                 "far too large leaves the sample small and noisy, which the report says; with a value far too "
+                 "small particles are removed at random, which is right in the mean.")
+                 .formerly("full_at")
+                 .byDefault("1e18 1/m^3")
+                 .above(0)
+                 .onlyWith(ofTreesOrOtherMaterials()));
 }
 
 void addTreeReactorKeys(DeckSchema& schema) {
-  addTreeKeys(schema,
-              "Particles as trees of primaries that share surface, by Monte Carlo; coupled with the gas both ways. "
-              "Every repeat is a reactor of its own. Without the heat of the material, known for soot and "
-              "silica, the temperature has to be given.",
-              "8192");
   schema
       .add(choiceKey("particles.viscosity", {"air", "transport"},
                      "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
-                     "transport: from these data. Absent: transport for soot, air for other materials.")
-               .optional())
+                     "transport: from these data.")
+               .byDefault("transport")
+               .byDefault("air", {ofOtherMaterials()})
+               .onlyWith(ofTreesOrOtherMaterials()))
       .add(tablesAt().onlyWith("reactor.type", {"constant_pressure", "constant_volume", "stirred"}))
       .add(quantityKey("particles.tables_at_place", units::length, "The same by places along a plug flow.")
                .list()
                .optional()
                .atLeast(0)
                .onlyWith("reactor.type", {"plug_flow"})
-               .onlyWith("particles.shape", {"trees"}));
-  addRuns(schema);
+               .onlyWith(ofTrees()));
+  addTreeRunKeys(schema);
   addClasses(schema);
 }
 
 void addTreePrescribedGasKeys(DeckSchema& schema) {
-  addTreeKeys(schema,
-              "Particles as trees of primaries that share surface, by Monte Carlo, by repeats of independent random "
-              "numbers.",
-              "8192");
   schema.add(tablesAt());
-  addRuns(schema);
+  addTreeRunKeys(schema);
   addClasses(schema);
-}
-
-void addTreeFlameKeys(DeckSchema& schema) {
-  addTreeKeys(schema,
-              "Particles as trees of primaries that share surface, by Monte Carlo, along the paths of the flame; needs "
-              "the section stochastic, which says where these are.",
-              "2048");
-  addRuns(schema);
 }
 
 TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
@@ -210,29 +179,19 @@ TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   options.material = readTreeMaterial(deck, mechanism);
   const SootReactions* soot = options.material.soot();
   options.sinteringTolerance = deck.number("particles.sintering.tolerance");
-  options.coagulation = soot != nullptr ? soot->soot.coagulation : deck.boolean("particles.coagulation");
-  if (deck.choice("particles.shape") == "surface_volume") {
-    if (soot != nullptr)
-      throw deck.error("particles.shape",
-                       "soot by volume and surface is 'stochastic: {shape: surface_volume}' without the section "
-                       "'particles'");
-    options.shape = TreeShape::surfaceVolume;
-  }
+  options.coagulation = deck.boolean("particles.coagulation");
+  if (deck.choice(descriptionKey) == "ensemble") options.shape = TreeShape::surfaceVolume;
   const std::string kernel = deck.choice("particles.kernel");
   options.kernel.type = kernel == "transition"       ? CollisionKernelType::transition
                         : kernel == "free_molecular" ? CollisionKernelType::freeMolecular
                                                      : CollisionKernelType::continuum;
   if (soot == nullptr)
-    options.material.siteReactions().freeMolecularInception = deck.choice("particles.inception") == "free_molecular";
-  options.kernel.enhancement = soot != nullptr ? soot->soot.vanDerWaals : deck.number("particles.enhancement");
-  options.kernel.slip = soot != nullptr                          ? soot->soot.slip
-                        : deck.choice("particles.slip") == "air" ? SlipLaw::air
-                                                                 : SlipLaw::davies;
-  options.size =
-      deck.optionalString("particles.collision_size").value_or(soot != nullptr ? "volume_to_surface" : "primaries") ==
-              "primaries"
-          ? CollisionSize::primaries
-          : CollisionSize::volumeToSurface;
+    options.material.siteReactions().freeMolecularInception =
+        deck.choice("particles.inception_kernel") == "free_molecular";
+  options.kernel.enhancement = deck.number("particles.van_der_waals");
+  options.kernel.slip = deck.choice("particles.slip") == "air" ? SlipLaw::air : SlipLaw::davies;
+  options.size = deck.choice("particles.collision_size") == "primaries" ? CollisionSize::primaries
+                                                                        : CollisionSize::volumeToSurface;
   options.particles = readSampleNumber(deck, "particles", 1000);  // some ten primaries each
   options.splitTolerance = deck.number("particles.split_tolerance");
   return options;
@@ -289,6 +248,7 @@ std::vector<TreeStart> readTreeStart(const Deck& deck, const TreeOptions& option
   std::vector<TreeStart> starts;
   for (const std::string& at : itemsOf(deck, initial)) {
     const bool hasSizes = deck.has(at + ".distribution");
+    if (hasSizes && deck.choice(at + ".distribution") == "none") continue;
     if (!hasSizes && !deck.has(at + ".number") && !deck.has(at + ".units") && !at.ends_with(']')) continue;
     starts.push_back(readStart(deck, at, options.material));
   }
@@ -306,10 +266,10 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   request.repeats = deck.integer<std::size_t>("particles.repeats");
   request.bins = readSizeBins(deck, "particles");
   if (isFlame(deck)) return request;
-  const std::string viscosity = isAlong(deck) ? "gas.viscosity" : "particles.viscosity";
-  request.viscosity = deck.optionalString(viscosity).value_or(isSoot ? "transport" : "air") == "air"
-                          ? GasViscosity::air
-                          : GasViscosity::transport;
+  const bool isAir = isAlong(deck)
+                         ? deck.optionalString("gas.viscosity").value_or(isSoot ? "transport" : "air") == "air"
+                         : deck.choice("particles.viscosity") == "air";
+  request.viscosity = isAir ? GasViscosity::air : GasViscosity::transport;
   request.tablesAt = readTablesAt(deck);
   if (const std::string key = "particles.classes.collision_diameter"; deck.has(key))
     request.classesByDiameter = risingEdges(deck, key, deck.quantities(key));

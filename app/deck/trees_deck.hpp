@@ -1,4 +1,5 @@
-// The section `particles` of reactors, flows and along a given gas: particles as trees of primaries.
+// Particles as trees of primaries (`particles.description: trees`), and by volume and surface of other materials than
+// soot.
 #pragma once
 
 #include <optional>
@@ -24,20 +25,17 @@ struct TreeRequest {
   std::vector<double> classesByDiameter, classesByPrimaries;
 };
 
-// The section, described for the problem, with the keys that all problems have; `number`: the default number of
-// numerical particles.
-void addTreeKeys(DeckSchema& schema, const std::string& description, const std::string& number);
-// Adds the keys of the particles that are there at the start.
-void addTreeStartKeys(DeckSchema& schema);
-// Adds the keys of the section and those of a reactor.
+// The keys of trees that all problems have: material, collisions, sintering.
+void addTreeKeys(DeckSchema& schema);
+// Adds the keys of the particles that are there at the start, where these conditions hold.
+void addStartKeys(DeckSchema& schema, const std::vector<DeckCondition>& conditions = {});
+// Adds those of the runs that repeat them: the start of trees, and when a sample is full.
+void addTreeRunKeys(DeckSchema& schema);
+// Adds those of a reactor, and of a given gas.
 void addTreeReactorKeys(DeckSchema& schema);
-// Adds the keys of the section and those of particles along a given gas.
 void addTreePrescribedGasKeys(DeckSchema& schema);
 
-// Adds the keys of the section and those of particles along the paths of a flame.
-void addTreeFlameKeys(DeckSchema& schema);
-
-// Of a deck with the section, what all problems have. InputError, pointing into the deck.
+// Of a deck with such particles, what all problems have. InputError, pointing into the deck.
 [[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);
 // What `particles.initial` says is there from the beginning; a sample that misses moments of it is told.
 [[nodiscard]] std::vector<TreeStart> readTreeStart(const Deck& deck, const TreeOptions& options);

@@ -233,8 +233,8 @@ void requirePaths(const Deck& deck, const FlameCase& flame) {
     fastest = std::max(
         fastest, stream.massFlux / Thermo(*flame.mechanism).density(stream.temperature, problem.pressure, stream.Y));
   }
-  if (const double slowest = deck.quantity("stochastic.minimum_velocity"); slowest >= fastest)
-    throw deck.error("stochastic.minimum_velocity",
+  if (const double slowest = deck.quantity("particles.minimum_velocity"); slowest >= fastest)
+    throw deck.error("particles.minimum_velocity",
                      fmt::format("expected less than {:.4g} m/s, with which the gas comes in, found {:g} m/s: no "
                                  "ensemble would be left",
                                  fastest, slowest));
@@ -287,8 +287,9 @@ FlameCase readFlameCase(const Deck& deck) {
   readUnsteady(deck, flame);
   if (deck.has("sensitivity")) flame.sensitivities = readSensitivityReactions(deck, *flame.mechanism);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
-    flame.soot = std::make_unique<CarriedParticles>(*flame.mechanism, std::move(model), deck.boolean("soot.diffusion"));
-    flame.sootAtLimit = deck.number("soot.sectional.overflow");
+    flame.soot =
+        std::make_unique<CarriedParticles>(*flame.mechanism, std::move(model), deck.boolean("particles.diffusion"));
+    flame.sootAtLimit = deck.number("particles.sectional.overflow");
   }
   flame.stochastic =
       readStochastic(deck, flame.mechanism, flame.problem.length, flame.problem.type == FlameType::Counterflow);

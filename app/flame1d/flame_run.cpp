@@ -126,9 +126,9 @@ Attempt solve(MPI_Comm comm, FlameCase& flame, const std::vector<FlameProfile>& 
       std::ranges::all_of(attempt.stochastic->paths,
                           [](const FlameEnsemblePath& path) { return path.path.path.points.empty(); }))
     attempt.failure =
-        "no ensemble: nowhere do particles move into the flame faster than 'stochastic.minimum_velocity'; a smaller "
+        "no ensemble: nowhere do particles move into the flame faster than 'particles.minimum_velocity'; a smaller "
         "value, or a "
-        "'stochastic.start' inside the flame";
+        "'particles.start' inside the flame";
   return attempt;
 }
 
@@ -139,8 +139,8 @@ void refuseOverflow(const FlameCase& flame, Attempt& attempt) {
   attempt.failure = fmt::format(
       "the sections of the soot end too early: a part {:.2g} of the largest volume fraction stands in the last one (as "
       "a "
-      "sphere {:.3g} nm), which cannot grow; allowed is {:.2g}. More sections ('soot.sectional.sections') or a larger "
-      "'soot.sectional.factor'; 'soot.sectional.overflow: 1' only counts it",
+      "sphere {:.3g} nm), which cannot grow; allowed is {:.2g}. More sections ('particles.sectional.sections') or a "
+      "larger 'particles.sectional.factor'; 'particles.sectional.overflow: 1' only counts it",
       soot->partAtLimit, 1e9 * soot->diameter.back(), flame.sootAtLimit);
 }
 

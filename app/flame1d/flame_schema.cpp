@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/sensitivity_deck.hpp"
-#include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
 #include "app/flame1d/flame_case.hpp"
@@ -272,7 +272,10 @@ DeckSchema flameSchema() {
   schema.add(quantityKey("pressure", units::pressure, "Pressure of the gas.").byDefault("1 atm").above(0));
   addFlame(schema);
   addPhysics(schema);
-  addSootModelKeys(schema);
+  addParticleKeys(schema, {.description = "Particles, carried by the gas or along the flame's paths, by repeats of "
+                                          "independent random numbers; absent: none.",
+                           .besideModel = true,
+                           .treeNumber = "2048"});
   addStochasticKeys(schema);
   addGrid(schema);
   addSolver(schema);

@@ -1,4 +1,4 @@
-// The section `stochastic` of a flame deck, done: ensembles in the flame that was solved, or coupled with it both ways;
+// Ensembles in the flame that was solved, or coupled with it both ways;
 // in results.h5 under /stochastic, in the record of the run and on the console.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The population of a flame's deck, along its paths, and how it is coupled with the flame: the section `stochastic`.
+// The population of a flame's deck, along its paths, and how it is coupled with the flame.
 #pragma once
 
 #include <memory>

@@ -4,8 +4,8 @@
 
 #include <array>
 
-#include "app/deck/ensemble_deck.hpp"
 #include "app/deck/initial_distribution.hpp"
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/population_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/sample_deck.hpp"
@@ -182,7 +182,7 @@ void readDrivingForce(const Deck& deck, FlowCase& flowCase) {
 
 EnsembleStatistics::Options readStatistics(const Deck& deck, FlowCase& flowCase) {
   constexpr double usualBlocks = 20.0;  // in the whole run
-  const std::string section = "stochastic.statistics";
+  const std::string section = "particles.statistics";
   const double end = deck.quantity("time.end");
   EnsembleStatistics::Options options;
   options.start = deck.optionalQuantity(section + ".start");
@@ -204,32 +204,34 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   EnsembleOperator::Options options;
   const PopulationRequest request = readCellPopulation(deck, flowCase.mechanism, flowCase.seed);
   flowCase.cellParticles =
-      deck.at(request.section, [&] { return std::make_shared<CellParticles>(*flowCase.mechanism, request.make(0)); });
+      deck.at(particleSection, [&] { return std::make_shared<CellParticles>(*flowCase.mechanism, request.make(0)); });
   if (request.hasStart)
     flowCase.startPopulation = [make = request.make](std::uint64_t cell) { return make(cell)->pack(); };
   std::ranges::copy(request.notes, std::back_inserter(flowCase.notes));
   options.seed = flowCase.seed;
-  options.bins = readSizeBins(deck, "stochastic");
-  options.sizes = deck.boolean("stochastic.size_distribution");
-  const bool isTwoWay = deck.choice("stochastic.exchange") == "two_way";
+  options.bins = readSizeBins(deck, particleSection);
+  options.sizes = deck.boolean("particles.size_distribution");
+  const bool isTwoWay = deck.choice("particles.exchange") == "two_way";
   options.exchange = isTwoWay ? EnsembleOperator::Exchange::TwoWay : EnsembleOperator::Exchange::OneWay;
-  if (isTwoWay) options.average = deck.quantity("stochastic.averaging_time");
-  options.frozenFrom = deck.optionalQuantity("stochastic.frozen_gas");
-  options.diffusion = !deck.has("soot") || deck.boolean("soot.diffusion");
-  options.secondOrder = deck.choice("stochastic.order") == "second";
+  if (isTwoWay) options.average = deck.quantity("particles.averaging_time");
+  options.frozenFrom = deck.optionalQuantity("particles.frozen_gas");
+  options.diffusion = deck.boolean("particles.diffusion");
+  options.secondOrder = deck.choice("particles.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;
   options.sweeps = deck.integer<int>("time.sweeps");
-  if (deck.has("stochastic.statistics")) options.statistics = readStatistics(deck, flowCase);
+  if (deck.has("particles.statistics")) options.statistics = readStatistics(deck, flowCase);
   flowCase.ensembles = options;
 }
 
 // Scalars of a model that begins with particles, the same in every cell.
 void readCarriedStart(const Deck& deck, FlowCase& flowCase) {
-  if (flowCase.ensembles || !deck.has("soot")) return;
+  if (flowCase.ensembles || !deck.has(particleSection)) return;
+  constexpr const char* sootAtStart = "particles.initial";
   const InitialPopulation sizes = readInitialDistribution(deck, sootAtStart);
   if (!(sizes.number > 0.0)) return;
   if (!flowCase.carried)
-    throw deck.error(sootAtStart, "there is no soot that could begin with particles; expected a 'soot.model'");
+    throw deck.error(sootAtStart,
+                     "there is no soot that could begin with particles; expected a model as 'particles.description'");
   if (!flowCase.initialFields.carried.empty())
     throw deck.error(sootAtStart, "the particles at the start are those of 'initial.flow'; leave one of the two out");
   const auto* model = dynamic_cast<const SootModel*>(&dynamic_cast<const CarriedParticles&>(*flowCase.carried).model());
@@ -245,19 +247,19 @@ void readCarriedStart(const Deck& deck, FlowCase& flowCase) {
 }
 
 void readSoot(const Deck& deck, FlowCase& flowCase) {
-  if (deck.has("stochastic") || deck.has("particles")) {
+  if (hasPopulation(deck)) {
     readEnsembles(deck, flowCase);
     return;
   }
   auto model = readSootModel(deck, *flowCase.mechanism);
   if (!model) {
-    if (deck.has("soot") && deck.has("trajectories"))
-      flowCase.notes.push_back("soot.model is none: the trajectories of the deck are left out");
+    if (deck.has(particleSection) && deck.has("trajectories"))
+      flowCase.notes.push_back("particles.description is none: the trajectories of the deck are left out");
     return;
   }
   flowCase.carried =
-      std::make_shared<CarriedParticles>(*flowCase.mechanism, std::move(model), deck.boolean("soot.diffusion"));
-  flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("soot.sectional.overflow"), tooFewSections};
+      std::make_shared<CarriedParticles>(*flowCase.mechanism, std::move(model), deck.boolean("particles.diffusion"));
+  flowCase.carriedOptions = {flowCase.chemistry.shareWork, deck.number("particles.sectional.overflow"), tooFewSections};
 }
 
 // Of a plane mesh r and z may stand for x and y.
@@ -280,9 +282,9 @@ Vector3 readStart(const Deck& deck, const std::string& item, const FlowCase& flo
 
 void readTrajectories(const Deck& deck, FlowCase& flowCase) {
   if (!deck.has("trajectories")) return;
-  if (deck.has("soot") && !flowCase.ensembles && deck.choice("soot.model") == "none") return;
+  if (deck.has(particleSection) && deck.choice(descriptionKey) == "none") return;
   if (!flowCase.carried && !flowCase.ensembles)
-    throw deck.error("trajectories", "trajectories need a 'soot' section: it names the particle model");
+    throw deck.error("trajectories", "trajectories need the section 'particles', which says what rides along");
   TrajectoryRequest options;
   options.make = readTrajectoryPopulation(deck, flowCase.mechanism, flowCase.seed).make;
   options.duration = deck.quantity("trajectories.duration");

@@ -157,8 +157,8 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
     if (line.from == line.to) throw deck.error(section, "expected two ends that differ");
     tables.lines.push_back(line);
   }
-  for (const std::string& name : deck.children("stochastic.regions")) {
-    const std::string section = "stochastic.regions." + name;
+  for (const std::string& name : deck.children("particles.regions")) {
+    const std::string section = "particles.regions." + name;
     requireFileName(deck, section, name);
     const OutputTables::Region region{name, readPlace(deck, section + ".from", flowCase),
                                       readPlace(deck, section + ".to", flowCase)};

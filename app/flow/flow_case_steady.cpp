@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/flow/flow_case_parts.hpp"
 
@@ -50,7 +51,7 @@ std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCa
     throw deck.error(steadySection,
                      "ensembles in the cells fluctuate, and with them the gas: their fields never come to rest. Leave "
                      "this out; averages that start by themselves tell when the soot has no trend "
-                     "(stochastic.statistics)");
+                     "(particles.statistics)");
   return SteadyControl{deck.number("time.steady.tolerance"), deck.optionalQuantity("time.steady.time"),
                        deck.quantity("time.steady.after"),
                        deck.choice("time.steady.norm") == "rms" ? Steadiness::Norm::Rms : Steadiness::Norm::Maximum};
@@ -211,13 +212,11 @@ void addSteadyKeys(DeckSchema& schema) {
 }
 
 void requireModeOfParticles(const Deck& deck) {
-  if (!isSearched(deck)) return;
-  for (const char* ensembles : {"stochastic", "particles"})
-    if (deck.has(ensembles))
-      throw deck.error(mode,
-                       "ensembles in the cells fluctuate, and with them the gas: they have averages, and no steady "
-                       "state. Seek that of the gas with a model of soot, or without, and start from its results with "
-                       "ensembles in time ('initial.flow')");
+  if (isSearched(deck) && hasPopulation(deck))
+    throw deck.error(mode,
+                     "ensembles in the cells fluctuate, and with them the gas: they have averages, and no steady "
+                     "state. Seek that of the gas with a model of soot, or without, and start from its results with "
+                     "ensembles in time ('initial.flow')");
 }
 
 }  // namespace lampblack::app::flowcase

@@ -1,11 +1,10 @@
 #include <array>
 #include <string>
 
-#include "app/deck/ensemble_deck.hpp"
 #include "app/deck/initial_distribution.hpp"
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/radiation_deck.hpp"
 #include "app/deck/sample_deck.hpp"
-#include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
 #include "app/deck/trees_deck.hpp"
@@ -183,48 +182,40 @@ void addConvectionAndOutput(DeckSchema& schema) {
 }
 
 void addParticles(DeckSchema& schema) {
-  addSootModelKeys(schema);
-  addInitialDistribution(schema, "soot.initial");
-  addEnsembleKeys(
-      schema,
-      "Ensembles of particles in the cells, in place of soot.model: they move with the gas, by thermophoresis and "
-      "by diffusion from cell to cell. Needs the section soot, whose PAH, surface and switches are theirs, "
-      "or the section particles; the random numbers are those of 'seed'.",
-      "pairs", "400");
-  addTreeKeys(
-      schema,
-      "Trees of primaries that share surface in the ensembles of the cells, in place of soot. Needs the section "
-      "stochastic, which says how the cells hold them, and a mechanism with the species that the material is "
-      "made from.",
-      "500");
-  addTreeStartKeys(schema);
-  schema
-      .add(choiceKey("stochastic.exchange", {"two_way", "one_way"},
+  addParticleKeys(schema, {.description = "Particles, carried by the gas, or in the cells as ensembles or trees, which "
+                                          "move with the gas, by thermophoresis and by diffusion from cell to cell; "
+                                          "their random numbers are those of 'seed'. Absent: none.",
+                           .method = "pairs",
+                           .ensembleNumber = "400",
+                           .treeNumber = "500"});
+  addStartKeys(schema);
+  DeckSchema part;
+  part.add(choiceKey("particles.exchange", {"two_way", "one_way"},
                      "two_way: the gas loses what the particles take, and its heat; one_way: the gas does not know of "
                      "the particles.")
                .byDefault("two_way"))
-      .add(quantityKey("stochastic.averaging_time", units::time,
+      .add(quantityKey("particles.averaging_time", units::time,
                        "Time over which the exchange between particles and gas is averaged before the gas gets it: "
                        "longer is smoother; atoms and heat are conserved in either case. Zero: no average.")
                .formerly("average")
                .byDefault("0.2 ms")
                .atLeast(0)
-               .onlyWith("stochastic.exchange", {"two_way"}))
+               .onlyWith("particles.exchange", {"two_way"}))
       .add(
-          quantityKey("stochastic.frozen_gas", units::time,
+          quantityKey("particles.frozen_gas", units::time,
                       "Time from which on the gas is frozen and only the particles change, which costs less where a "
                       "flame is steady. The exchange with the gas is counted, but not given to the gas. Absent: never.")
               .formerly("hold_gas")
               .optional()
               .atLeast(0))
-      .add(quantityKey("stochastic.minimum_number_density", units::perVolume,
+      .add(quantityKey("particles.minimum_number_density", units::perVolume,
                        "Smallest number density that is resolved. Where there are fewer particles, a new numerical "
                        "particle stands for this density divided by the largest number of numerical particles, so that "
                        "traces do not fill ensembles.")
                .formerly("least_number")
                .byDefault("1e12 1/m^3")
                .above(0))
-      .add(numberKey("stochastic.bundled_growth",
+      .add(numberKey("particles.bundled_growth",
                      "Growth in bundles, of method sammc: share of its volume that a particle may gain from small "
                      "particles in one event. Bundles save most events where new particles are many. Number and mass "
                      "are exact; the second moment grows too fast by at most half of the share. Zero: no bundles.")
@@ -232,47 +223,48 @@ void addParticles(DeckSchema& schema) {
                .byDefault("0.05")
                .atLeast(0)
                .atMost(0.5))
-      .add(choiceKey("stochastic.order", {"first", "second"},
+      .add(choiceKey("particles.order", {"first", "second"},
                      "Order of the particles' transport in place and time. first: more diffusion by the cells' size, "
                      "fewer operations.")
                .byDefault("second"))
-      .add(booleanKey("stochastic.size_distribution",
+      .add(booleanKey("particles.size_distribution",
                       "Whether the size distribution of each cell is a field of the results, and with "
-                      "stochastic.statistics its mean over time: as many numbers a cell as stochastic.bins, which is "
+                      "particles.statistics its mean over time: as many numbers a cell as particles.bins, which is "
                       "about what mole fractions of all species take.")
                .byDefault("true"))
-      .section("stochastic.statistics", Presence::optional,
+      .section("particles.statistics", Presence::optional,
                "Averages of the soot over time, for flames that have become steady but for the noise of their "
                "ensembles: of each cell means, and intervals of confidence from means over blocks of time. Absent: "
                "none.")
-      .add(quantityKey("stochastic.statistics.start", units::time,
+      .add(quantityKey("particles.statistics.start", units::time,
                        "When the averages start. Absent: by themselves, when the soot in the whole domain and its "
                        "number have no trend over the last ten blocks or more.")
                .optional()
                .atLeast(0))
-      .add(quantityKey("stochastic.statistics.block", units::time,
+      .add(quantityKey("particles.statistics.block", units::time,
                        "Length of a block of time, which should be long against what the soot takes to forget; the "
                        "report says where it is not. Five blocks make an interval. Absent: a twentieth of time.end. "
                        "A run that goes on from a checkpoint keeps the length it has begun with.")
                .optional()
                .above(0))
-      .add(numberKey("stochastic.statistics.drift",
+      .add(numberKey("particles.statistics.drift",
                      "Relative change of the soot over the blocks that are looked at which counts as no trend, "
                      "however clear it is; for averages that start by themselves.")
                .byDefault("0.01")
                .atLeast(0)
                .below(1))
-      .section("stochastic.regions.*", Presence::optional,
+      .section("particles.regions.*", Presence::optional,
                "A box of which the size distribution and, of aggregates, the joint distribution of the primary "
                "particles' diameter and number are written with each field output, to the tables "
                "tables/sizes_<name>.csv and tables/joint_<name>.csv: mean of the cells with their centre in it.")
-      .add(quantityKey("stochastic.regions.*.from", units::length,
+      .add(quantityKey("particles.regions.*.from", units::length,
                        "Smallest coordinates of the box, '[0 mm, 3 mm]', in space three.")
                .list())
-      .add(quantityKey("stochastic.regions.*.to", units::length, "Largest coordinates of the box.").list());
+      .add(quantityKey("particles.regions.*.to", units::length, "Largest coordinates of the box.").list());
+  schema.add(part, ofPopulations());
   schema
       .section("trajectories", Presence::optional,
-               "Stochastic ensembles that ride along streamlines of the final flow; needs the soot section.")
+               "Stochastic ensembles that ride along streamlines of the final flow; needs the section particles.")
       .add(quantityKey("trajectories.duration", units::time,
                        "Longest time that an ensemble is followed along its streamline.")
                .byDefault("50 ms")
@@ -289,7 +281,7 @@ void addParticles(DeckSchema& schema) {
                       "Whether the gas of each path, all of its species, is written to tables/streamline_<number>.csv, "
                       "which gas.file of a deck with problem: prescribed_gas reads.")
                .byDefault("false"));
-  addSplitToleranceKey(schema, "trajectories", "0.01");
+  schema.add(splitToleranceKey("trajectories", "0.01"));
   addSizeBinKeys(schema, "trajectories", "200 nm");
   schema.section("trajectories.start", Presence::required, "Where the ensembles start.")
       .add(quantityKey("trajectories.start[].r", units::length,

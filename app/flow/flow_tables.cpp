@@ -108,7 +108,7 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
   for (std::size_t r = 0; r < regions_.size(); ++r) {
     const std::string& name = tables.regions[r].name;
     if (regions_[r].isEmpty())
-      raiseTogether(context.mesh.comm, tables.deck->error("stochastic.regions." + name,
+      raiseTogether(context.mesh.comm, tables.deck->error("particles.regions." + name,
                                                           "no cell of the mesh has its centre in this region"));
     for (const Operator* op : source.operators)
       for (const Operator::RegionTable& table : op->regionTables())

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "app/flame1d/flame_file.hpp"
@@ -112,21 +113,19 @@ std::vector<double> readRows(const Deck& deck, double begin, double last) {
 }
 
 void readParticles(const Deck& deck, PrescribedGasCase& along) {
-  if (!deck.has("soot"))
-    throw deck.error("soot", "particles need the section 'soot', or 'particles' for trees of primaries");
-  if (!deck.has("stochastic")) {
+  if (!hasPopulation(deck)) {
     along.model = readSootModel(deck, *along.mechanism);
-    if (!along.model) throw deck.error("soot.model", "expected a model, or the section 'stochastic' for ensembles");
-    if (deck.choice("soot.model") == "sectional") along.sootAtLimit = deck.number("soot.sectional.overflow");
+    if (!along.model) throw deck.error(descriptionKey, "expected a model, an ensemble or trees");
+    if (carriedModel(deck) == "sectional") along.sootAtLimit = deck.number("particles.sectional.overflow");
     return;
   }
-  for (const char* key : {"stochastic.coupling", "stochastic.coupling_change"})
+  for (const char* key : {"particles.coupling", "particles.coupling_change"})
     if (deck.isGiven(key)) throw deck.error(key, "with gas.exchange: one_way nothing is coupled; leave this out");
   along.ensemble = readPopulation(deck, along.mechanism);
 }
 
 std::vector<std::string> precursorsOf(const Deck& deck, const Mechanism& mechanism) {
-  if (deck.has("particles")) return readTreeOptions(deck, mechanism).material.precursors();
+  if (isOfTrees(deck)) return readTreeOptions(deck, mechanism).material.precursors();
   return sootPrecursors(readSootModelOptions(deck, mechanism));
 }
 
@@ -187,7 +186,7 @@ PrescribedGasCase readPrescribedGasCase(const Deck& deck) {
   along.title = deck.string("title");
   along.mechanism = readMechanism(deck);
   checkGas(deck);
-  if (deck.has("particles") || (deck.has("stochastic") && isTwoWay(deck))) {
+  if (isOfTrees(deck) || (hasPopulation(deck) && isTwoWay(deck))) {
     along.coupled = readCoupled(deck, along);
     return along;
   }
@@ -204,7 +203,7 @@ PrescribedGasCase readPrescribedGasCase(const Deck& deck) {
   along.path.points.resize(along.recorded.back() + 1);
   along.path.divergence.resize(along.recorded.back());
   if (along.ensemble) {
-    requireMemory(deck, "stochastic.repeats", "what the repeats leave",
+    requireMemory(deck, "particles.repeats", "what the repeats leave",
                   8.0 * static_cast<double>(along.ensemble->repeats * rows.size() * (50 + along.ensemble->bins.count)));
   }
   return along;

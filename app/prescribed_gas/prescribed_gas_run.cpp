@@ -33,8 +33,9 @@ class PreparedPrescribedGas : public PreparedRun {
                          case_.coupled->rows.size());
     const auto& points = case_.path.points;
     const std::string what =
-        case_.ensemble ? fmt::format("{} repeats of {}", case_.ensemble->repeats, case_.ensemble->material)
-                       : fmt::format("{} with {} scalars", deck_.choice("soot.model"), case_.model->scalars().size());
+        case_.ensemble
+            ? fmt::format("{} repeats of {}", case_.ensemble->repeats, case_.ensemble->material)
+            : fmt::format("{} with {} scalars", deck_.choice("particles.description"), case_.model->scalars().size());
     return fmt::format("{}, {:g} to {:g} s, {} rows", what, points.front().time, points.back().time,
                        case_.recorded.size());
   }
@@ -46,8 +47,7 @@ class PreparedPrescribedGas : public PreparedRun {
       });
       return;
     }
-    recordedRun(comm_, deck_, options,
-                case_.ensemble ? deck_.integer<std::uint64_t>(case_.ensemble->section + ".seed") : 0,
+    recordedRun(comm_, deck_, options, case_.ensemble ? deck_.integer<std::uint64_t>("particles.seed") : 0,
                 [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
                   const double begin = MPI_Wtime();
                   const auto measure = [&] {

@@ -1,6 +1,5 @@
-#include "app/deck/ensemble_deck.hpp"
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/sample_deck.hpp"
-#include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "app/prescribed_gas/prescribed_gas_case.hpp"
 #include "app/tools/gas_input.hpp"
@@ -49,17 +48,14 @@ DeckSchema prescribedGasSchema() {
                .onlyWith("gas.exchange", {"two_way"}))
       .add(choiceKey("gas.viscosity", {"transport", "air"},
                      "Viscosity of the gas. transport: from the mechanism's transport data; air: Sutherland's law of "
-                     "air. Absent: transport, for trees of other materials than soot air.")
+                     "air. Absent: transport, for other materials than soot air.")
                .optional());
-  addSootModelKeys(schema);
-  addEnsembleKeys(
-      schema,
-      "Ensembles of soot particles in place of soot.model, by repeats of independent random numbers; needs the "
-      "section soot, whose PAH, surface and switches are theirs.");
-  addRepeatKeys(schema, "stochastic");
-  addCouplingKeys(schema, "stochastic");
+  addParticleKeys(schema, {.description = "The particles: a model, or an ensemble or trees by repeats of independent "
+                                          "random numbers.",
+                           .presence = Presence::required});
+  addRepeatKeys(schema);
+  addCouplingKeys(schema);
   addTreePrescribedGasKeys(schema);
-  addCouplingKeys(schema, "particles");
   schema.section("output", Presence::defaulted, "Rows of the history.")
       .add(quantityKey("output.interval", units::time, "Time between rows; absent: a hundredth of the run.")
                .optional()

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
@@ -119,17 +120,18 @@ void readParticles(const Deck& deck, ReactorCase& reactorCase) {
   if (hasPopulation(deck)) return reactorcase::readPopulations(deck, reactorCase);
   auto model = readSootModel(deck, *reactorCase.mechanism);
   if (!model) return;
-  if (deck.isGiven("soot.diffusion"))
-    throw deck.error("soot.diffusion", "a reactor is well mixed and nothing diffuses in it; leave this key out");
+  if (deck.isGiven("particles.diffusion"))
+    throw deck.error("particles.diffusion", "a reactor is well mixed and nothing diffuses in it; leave this key out");
   if (deck.has("sensitivity"))
-    throw deck.error("sensitivity", "sensitivities are those of a gas alone; leave out the section 'soot' or this one");
+    throw deck.error("sensitivity",
+                     "sensitivities are those of a gas alone; leave out the section 'particles' or this one");
   reactorCase.soot = std::make_shared<CarriedParticles>(*reactorCase.mechanism, std::move(model));
   try {
     reactorCase.particles = std::make_shared<ReactorParticles>(*reactorCase.mechanism, *reactorCase.soot);
   } catch (const InputError& error) {
-    throw deck.error("soot", fmt::format("particles need the gas's viscosity: {}", error.what()));
+    throw deck.error(particleSection, fmt::format("particles need the gas's viscosity: {}", error.what()));
   }
-  reactorCase.sootAtLimit = deck.number("soot.sectional.overflow");
+  reactorCase.sootAtLimit = deck.number("particles.sectional.overflow");
 }
 
 }  // namespace
@@ -165,11 +167,10 @@ ReactorCase readReactorCase(const Deck& deck) {
     reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
     if (reactorCase.end == 0)
       refuseTimes(deck);
-    else if (!deck.has("stochastic") && !deck.has("particles"))
+    else if (!hasPopulation(deck))
       throw deck.error("time.end",
-                       "the steady state of a network is computed; only with populations, the sections 'stochastic' or "
-                       "'particles', is "
-                       "it followed in time");
+                       "the steady state of a network is computed; only with an ensemble or trees of 'particles' "
+                       "is it followed in time");
     else
       checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
   }

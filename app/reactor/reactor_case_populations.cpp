@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/reactor/reactor_case_parts.hpp"
 #include "particles/models/element_enthalpies.hpp"
 
@@ -11,22 +12,22 @@ namespace lampblack::app::reactorcase {
 namespace {
 
 // What a population of any kind cannot have.
-void refuseWithPopulation(const Deck& deck, const std::string& section, ReactorCase& reactorCase) {
+void refuseWithPopulation(const Deck& deck, ReactorCase& reactorCase) {
   if (reactorCase.type == ReactorType::GivenGas) return;
   if (deck.has("sensitivity") || (deck.isGiven("ignition") && !reactorCase.ignition.empty()))
     throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
                      "ignition delays of a gas with an ensemble are not computed; leave this section out");
   reactorCase.ignition.clear();
   if ((reactorCase.type == ReactorType::Stirred || reactorCase.type == ReactorType::Network) && reactorCase.end == 0)
-    throw deck.error(section,
+    throw deck.error(particleSection,
                      "the steady state of an ensemble is a mean over time: give time.end, of many residence times; the "
                      "second half is averaged");
 }
 
-bool readPredicted(const Deck& deck, const std::string& section, const ReactorCase& reactorCase) {
-  const bool predicted = deck.choice(section + ".coupling") == "predictor_corrector";
+bool readPredicted(const Deck& deck, const ReactorCase& reactorCase) {
+  const bool predicted = deck.choice("particles.coupling") == "predictor_corrector";
   if (predicted && reactorCase.type == ReactorType::Network)
-    throw deck.error(section + ".coupling", "in a network gas and particles are coupled by splitting alone");
+    throw deck.error("particles.coupling", "in a network gas and particles are coupled by splitting alone");
   return predicted;
 }
 
@@ -34,16 +35,16 @@ bool readPredicted(const Deck& deck, const std::string& section, const ReactorCa
 
 void readPopulations(const Deck& deck, ReactorCase& reactorCase) {
   ReactorPopulations populations{readPopulation(deck, reactorCase.mechanism)};
-  const std::string& section = populations.section;
-  refuseWithPopulation(deck, section, reactorCase);
+  refuseWithPopulation(deck, reactorCase);
   for (const StirredReactor& reactor : reactorCase.network.reactors)
     if (reactor.name.find('/') != std::string::npos)
       throw deck.error("network.reactors." + reactor.name,
                        "results of ensembles bear the name of the reactor, which may have no '/'");
-  reactorCase.couplingChange = deck.number(section + ".coupling_change");
-  populations.predicted = readPredicted(deck, section, reactorCase);
+  reactorCase.couplingChange = deck.number("particles.coupling_change");
+  populations.predicted = readPredicted(deck, reactorCase);
   // To find what it lacks.
-  deck.at(section, [&] { const ReactorGas gas(*reactorCase.mechanism, populations.species, populations.viscosity); });
+  deck.at(particleSection,
+          [&] { const ReactorGas gas(*reactorCase.mechanism, populations.species, populations.viscosity); });
   const std::vector<StirredReactor>& stirred = reactorCase.network.reactors;
   const bool isGiven =
       reactorCase.profile || reactorCase.type == ReactorType::GivenGas ||

@@ -1,7 +1,6 @@
-#include "app/deck/ensemble_deck.hpp"
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/sensitivity_deck.hpp"
-#include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
@@ -179,15 +178,6 @@ void addIgnition(DeckSchema& schema) {
       "ignition_delay", {{typeKey, closed}});
 }
 
-void addEnsembles(DeckSchema& schema) {
-  addEnsembleKeys(
-      schema,
-      "Ensembles of soot particles in place of soot.model, coupled with the gas both ways: every repeat is a "
-      "reactor, or a network, of its own. Needs the section soot, whose PAH, surface and switches are theirs.");
-  addRepeatKeys(schema, "stochastic");
-  addCouplingKeys(schema, "stochastic");
-}
-
 }  // namespace
 
 DeckSchema reactorSchema() {
@@ -218,10 +208,13 @@ DeckSchema reactorSchema() {
                .above(0)
                .onlyWith(typeKey, inTime));
   addIgnition(schema);
-  addSootModelKeys(schema);
-  addEnsembles(schema);
+  addParticleKeys(schema,
+                  {.description = "Particles, coupled with the gas both ways; of ensembles and trees every repeat is a "
+                                  "reactor, or a network, of its own. Without the heat of the material, known for soot "
+                                  "and silica, the temperature has to be given. Absent: none."});
+  addRepeatKeys(schema);
+  addCouplingKeys(schema);
   addTreeReactorKeys(schema);
-  addCouplingKeys(schema, "particles");
   schema.section("integrator", Presence::defaulted, "The stiff solver of everything but steady states.")
       .add(numberKey("integrator.relative_tolerance",
                      "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.")

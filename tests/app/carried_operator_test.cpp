@@ -70,7 +70,7 @@ std::vector<std::string> modelNames() {
 
 class EveryModel : public testing::TestWithParam<std::string> {
  protected:
-  [[nodiscard]] static std::vector<std::string> deckLines() { return {"soot.model=" + GetParam()}; }
+  [[nodiscard]] static std::vector<std::string> deckLines() { return {"particles.description=" + GetParam()}; }
 };
 
 TEST_P(EveryModel, KeepsMassElementsAndEnthalpy) {
@@ -332,7 +332,7 @@ TEST(CarriedOperator, ItsScalarsDriftByThermophoresis) {
 // A row of the history has what its columns say; the peak is that of all ranks.
 TEST(CarriedOperator, TellsItsPeakAndRefusesTooFewSections) {
   Flame flame(MPI_COMM_WORLD, test::sootingGas,
-              {"soot.model=sectional", "soot.sectional.sections=4", "soot.sectional.overflow=1"});
+              {"particles.description=sectional", "particles.sectional.sections=4", "particles.sectional.overflow=1"});
   CarriedOperator particles = operatorOf(flame);
   particles.advance(flame.state, 0.0, 3e-3);
   const std::vector<double> row = particles.historyValues(flame.state);

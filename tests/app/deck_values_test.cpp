@@ -28,7 +28,8 @@ TEST(DeckValues, OfAFlow) {
        "time={end: 3 us, first_step: 0.2 us, maximum_step: 0.4 us, courant: 0.3, growth: 1.5}",
        "output={interval: 2 us, history_steps: 3, species: [OH, C2H2]}",
        "chemistry={share_work: false, relative_tolerance: 1e-5, absolute_tolerance: 1e-11}",
-       "soot={pah: [A2], density: 1700 kg/m^3, alpha: 0.4, oh_efficiency: 0.1, van_der_waals: 1.5}",
+       "particles={description: two_equation_dimer, pah: [A2], density: 1700 kg/m^3, alpha: 0.4, oh_efficiency: 0.1, "
+       "van_der_waals: 1.5}",
        "trajectories={duration: 2 ms, time_step: 20 us, particles: 128, bins: 30, smallest: 1 nm, "
        "largest: 100 nm, start: [{r: 1 mm, z: 4 mm}]}"}));
   EXPECT_DOUBLE_EQ(flow.pressure, 202650);

@@ -17,19 +17,19 @@ image = running.package("PIL.Image")
 
 MIDDLE = 30  # of some 60 steps; within a block
 SETTINGS = ("time.end=120 us", "time.maximum_step=2 us", "output.interval=40 us", "output.species=[A2]",
-            "stochastic={shape: aggregates, number: 50, minimum_number_density: 1e8 1/m^3, bins: 12, split_tolerance: 0.1}",
-            "stochastic.statistics={start: 40 us, block: 10.5 us}",
-            "stochastic.regions={flame: {from: [0 mm, 2 mm], to: [6 mm, 6 mm]}, cold: {from: [0 mm, 7 mm], to: [6 mm, 8 mm]}}",
+            "particles={description: ensemble, shape: aggregates, number: 50, minimum_number_density: 1e8 1/m^3, bins: 12, split_tolerance: 0.1}",
+            "particles.statistics={start: 40 us, block: 10.5 us}",
+            "particles.regions={flame: {from: [0 mm, 2 mm], to: [6 mm, 6 mm]}, cold: {from: [0 mm, 7 mm], to: [6 mm, 8 mm]}}",
             "output.lines={axis: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 5}}",
             "output.quantities=[soot_size_distribution, soot_number_density_mean, soot_number_density_interval]")
-WRONG = (("stochastic.statistics.start=1 ms", "stochastic.statistics.start", "expected less than 'time.end'"),
-         ("stochastic.statistics.block=0 s", "stochastic.statistics.block", "above"),
-         ("stochastic.statistics.drift=1", "stochastic.statistics.drift", "below 1"),
-         ("stochastic.regions.flame.to=[6 mm, 1 mm]", "stochastic.regions.flame.to", "more than 'from' along z"),
-         ("stochastic.regions.flame.to=[6 mm]", "stochastic.regions.flame.to", "expected 2 coordinates, found 1"),
-         ("stochastic.regions.flame.from=[5.9 mm, 2.1 mm]", "stochastic.regions.flame", "no cell of the mesh has its centre"),
-         ("stochastic.regions={'a/b': {from: [0 mm, 0 mm], to: [1 mm, 1 mm]}}", "stochastic.regions.a/b", "that of a file"),
-         ("stochastic.regions.flame.size=1", "stochastic.regions.flame.size", "unknown key"),
+WRONG = (("particles.statistics.start=1 ms", "particles.statistics.start", "expected less than 'time.end'"),
+         ("particles.statistics.block=0 s", "particles.statistics.block", "above"),
+         ("particles.statistics.drift=1", "particles.statistics.drift", "below 1"),
+         ("particles.regions.flame.to=[6 mm, 1 mm]", "particles.regions.flame.to", "more than 'from' along z"),
+         ("particles.regions.flame.to=[6 mm]", "particles.regions.flame.to", "expected 2 coordinates, found 1"),
+         ("particles.regions.flame.from=[5.9 mm, 2.1 mm]", "particles.regions.flame", "no cell of the mesh has its centre"),
+         ("particles.regions={'a/b': {from: [0 mm, 0 mm], to: [1 mm, 1 mm]}}", "particles.regions.a/b", "that of a file"),
+         ("particles.regions.flame.size=1", "particles.regions.flame.size", "unknown key"),
          ("output.quantities=[soot_size_distribution_means]", "output.quantities", "is no field of this flow"))
 
 
@@ -115,7 +115,7 @@ def check_restart(program, mpiexec, executable, folder, deck, whole):
         assert abs(value - reference).max() < 0.05 * reference.max(), name
     assert found["history/soot_averaged_blocks"][-1] == expected["history/soot_averaged_blocks"][-1]
     # In a gas that stays as it is the particles do not show the ranks: the same bits.
-    frozen = [*options, *running.settings("stochastic.frozen_gas=50 us")]
+    frozen = [*options, *running.settings("particles.frozen_gas=50 us")]
     run(program, deck, *frozen, "--out", folder / "alone", "--restart", checkpoint)
     run(running.Program(executable, mpiexec, 2), deck, *frozen, "--out", folder / "together", "--restart", checkpoint)
     alone, together = datasets(folder / "alone"), datasets(folder / "together")
@@ -130,7 +130,7 @@ def check_restart(program, mpiexec, executable, folder, deck, whole):
     assert not any(name.endswith("_mean") for name in datasets(folder / "without")), "averages that nobody asked for"
     short = running.settings(*without, "checkpoint.at_end=true", "time.end=20 us", "output.interval=20 us")
     run(program, deck, *short, "--out", folder / "later")
-    run(program, deck, *options, *running.settings("stochastic.statistics.start=10 us", "output.interval=20 us", "time.end=40 us"),
+    run(program, deck, *options, *running.settings("particles.statistics.start=10 us", "output.interval=20 us", "time.end=40 us"),
         "--out", folder / "later", "--restart")
     found = datasets(folder / "later")
     assert abs(found["history/soot_averages_since"][-1] - 20e-6) < 1e-9 and found["history/soot_averaged_blocks"][-1] == 1
@@ -138,7 +138,7 @@ def check_restart(program, mpiexec, executable, folder, deck, whole):
 
 def check_without_sizes(program, folder, deck):
     settings = [s for s in SETTINGS if "quantities" not in s] + [
-        "stochastic.size_distribution=false", "stochastic.shape=spheres", "stochastic.statistics.start=10 us",
+        "particles.size_distribution=false", "particles.shape=spheres", "particles.statistics.start=10 us",
         "time.end=30 us", "output.interval=10 us"]
     run(program, deck, *running.settings(*settings), "--out", folder / "spheres")
     data = datasets(folder / "spheres")

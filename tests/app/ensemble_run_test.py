@@ -14,16 +14,16 @@ import running
 h5py = running.package("h5py")
 
 STEPS = ("time.end=40 us", "time.maximum_step=2 us", "output.interval=20 us", "output.history_steps=1", "output.species=[A2]")
-STOCHASTIC = "stochastic={{method: {method}, number: 40, minimum_number_density: 1e9 1/m^3, averaging_time: {average}}}"
+STOCHASTIC = "particles={{description: ensemble, method: {method}, number: 40, minimum_number_density: 1e9 1/m^3, averaging_time: {average}}}"
 FIELDS = ("soot_volume_fraction", "soot_number_density", "soot_primary_diameter", "numerical_particles", "soot_owed_carbon")
 
 # What is set, and what the message has to name.
 REFUSED = (
-    (("stochastic={number: 4}",), "stochastic.number"),
-    (("stochastic={}", "soot.model=hmom"), "take the place of a model"),
-    (("stochastic={exchange: one_way, averaging_time: 1 ms}",), "averaging_time"),
-    (("stochastic={smallest: 100 nm, largest: 10 nm}",), "stochastic.largest"),
-    (("stochastic={repeats: 4}",), "repeats"),
+    (("particles={description: ensemble, number: 4}",), "particles.number"),
+    (("stochastic={}", "soot.model=hmom"), "takes the place of the model"),
+    (("particles={description: ensemble, exchange: one_way, averaging_time: 1 ms}",), "averaging_time"),
+    (("particles={description: ensemble, smallest: 100 nm, largest: 10 nm}",), "particles.largest"),
+    (("particles={description: ensemble, repeats: 4}",), "repeats"),
 )
 
 
@@ -72,7 +72,7 @@ def main(executable, *mpiexec):
         restart_test.run(one, deck, *options, "--out", folder / "rest", "--restart", whole / "checkpoint/step_000012.h5")
         restart_test.assert_equal(folder / "rest", whole)
         restart_test.run(two, deck, *options, "--out", folder / "other", "--restart", whole / "checkpoint/step_000012.h5")
-        held = (*options, "--set", "stochastic.frozen_gas=20 us")
+        held = (*options, "--set", "particles.frozen_gas=20 us")
         check_run(one, deck, folder / "held", *held, "--set", "checkpoint.steps=16")
         restart_test.run(one, deck, *held, "--out", folder / "held_rest", "--restart", folder / "held/checkpoint/step_000016.h5")
         restart_test.assert_equal(folder / "held_rest", folder / "held")

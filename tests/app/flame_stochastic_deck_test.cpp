@@ -30,7 +30,7 @@ std::optional<StochasticRequest> requestOf(const std::string& sections) {
 }
 
 TEST(StochasticDeck, APathFromTheRightStartsAsFarFromItsEndAsThatFromTheLeft) {
-  const auto request = requestOf("soot: {pah: [A2]}\nstochastic: {start: 2 mm}\n");
+  const auto request = requestOf("particles: {description: ensemble, carried: two_equation_dimer, start: 2 mm}\n");
   ASSERT_TRUE(request);
   const auto& paths = request->coupling.ensemble.paths;
   ASSERT_EQ(paths.size(), 2U);
@@ -43,9 +43,8 @@ TEST(StochasticDeck, APathFromTheRightStartsAsFarFromItsEndAsThatFromTheLeft) {
 }
 
 TEST(StochasticDeck, PathsOfAFlameTakeTreesToo) {
-  const auto request = requestOf(
-      "soot: {pah: [A2]}\nparticles: {material: soot, number: 16, repeats: 3, bins: 7}\nstochastic: {coupling: "
-      "two_way}\n");
+  const auto request =
+      requestOf("particles: {description: trees, number: 16, repeats: 3, bins: 7, coupling: two_way}\n");
   ASSERT_TRUE(request);
   EXPECT_TRUE(request->twoWay);
   EXPECT_EQ(request->coupling.ensemble.repeats, 3U);
@@ -53,31 +52,23 @@ TEST(StochasticDeck, PathsOfAFlameTakeTreesToo) {
   const auto trees = request->coupling.ensemble.make(0);
   EXPECT_NE(dynamic_cast<const TreeEnsemble*>(trees.get()), nullptr);
   EXPECT_EQ(request->watched, "C2H2");
-  EXPECT_FALSE(requestOf("soot: {model: none}\n"));
+  EXPECT_FALSE(requestOf("particles: {description: none}\n"));
 }
 
 TEST(StochasticDeck, WhatIsOfAnotherKindIsRefused) {
-  for (const auto& [sections, expected] :
-       {std::pair{"soot: {pah: [A2]}\nparticles: {material: soot}\n", "in a flame these need the section 'stochastic'"},
-        std::pair{"soot: {pah: [A2]}\nparticles: {material: soot}\nstochastic: {repeats: 4}\n", "this is of soot"},
-        std::pair{"soot: {pah: [A2]}\nparticles: {material: soot}\nstochastic: {shape: aggregates}\n",
-                  "this is of soot"},
-        std::pair{"soot: {pah: [A2]}\nparticles: {material: soot}\nstochastic: {number: 40}\n", "this is of soot"},
-        std::pair{"stochastic: {repeats: 4}\n", "ensembles need the section 'soot'"}})
-    EXPECT_THAT(test::messageOf<InputError>([text = sections] { (void)requestOf(text); }),
-                testing::HasSubstr(expected));
-}
-
-// The section `soot` says these.
-TEST(StochasticDeck, TreesOfSootHaveNoSecondKeyForWhatSootSays) {
-  for (const char* key : {"density: 1900 kg/m^3", "coagulation: false", "enhancement: 2", "slip: davies"})
-    EXPECT_THAT(test::messageOf<InputError>([key] {
-                  (void)requestOf("soot: {pah: [A2]}\nparticles: {material: soot, " + std::string(key) +
-                                  "}\nstochastic: {coupling: two_way}\n");
-                }),
-                testing::AllOf(testing::HasSubstr("particles." + std::string(key).substr(0, 4)),
-                               testing::HasSubstr("of soot this is 'soot.")))
-        << key;
+  for (const auto& [keys, expected] :
+       {std::pair{"description: trees, method: dsmc", "particles.method: 'particles.description: trees' does not have"},
+        std::pair{"description: trees, shape: aggregates", "particles.shape: 'particles.description: trees'"},
+        std::pair{"description: ensemble, smoothing: 1", "particles.smoothing: 'particles.description: ensemble'"},
+        std::pair{"description: hmom, carried: momic", "particles.carried: 'particles.description: hmom'"},
+        std::pair{"description: hmom, heights: [5 mm]", "particles.heights: 'particles.description: hmom'"},
+        std::pair{"description: ensemble, hmom: {fractal_dimension: 2}",
+                  "choose: hmom, none; or 'particles.carried': hmom"},
+        std::pair{"description: trees, material: silica, carried: hmom", "hmom is a model of soot"}})
+    EXPECT_THAT(
+        test::messageOf<InputError>([text = keys] { (void)requestOf(fmt::format("particles: {{{}}}\n", text)); }),
+        testing::HasSubstr(expected));
+  EXPECT_TRUE(requestOf("particles: {description: ensemble, carried: hmom, hmom: {fractal_dimension: 2}}\n"));
 }
 
 }  // namespace

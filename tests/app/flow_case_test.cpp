@@ -146,7 +146,7 @@ TEST(FlowCase, NeedsNoTitle) {
 }
 
 TEST(FlowCase, WithoutSootThereAreNoTrajectories) {
-  const FlowCase flowCase = readFlowCase(test::flameDeck({"soot.model=none"}));
+  const FlowCase flowCase = readFlowCase(test::flameDeck({"particles.description=none"}));
   EXPECT_FALSE(flowCase.carried);
   EXPECT_FALSE(flowCase.trajectories);
 }

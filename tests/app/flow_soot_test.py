@@ -44,12 +44,12 @@ output: {{interval: 10 us}}
 WIDE, EQUAL = (1e16, 20e-9, 1.4), (1e15, 50e-9)
 START = (f"[{{distribution: lognormal, number: {WIDE[0]} 1/m^3, diameter: {WIDE[1]} m, geometric_deviation: {WIDE[2]}@}}, "
          f"{{distribution: monodisperse, number: {EQUAL[0]} 1/m^3, diameter: {EQUAL[1]} m@}}]")
-SOOT = "soot: {pah: [A2], initial: " + START.replace("@", "") + ", model: none}\n"
-ENSEMBLE = SOOT.replace(", model: none", "") + "stochastic: {number: 200, method: sammc}\n"
-TREES = "particles: {material: soot, number: 200, initial: " + START.replace("@", ", units: [1, 0]") + "}\n"
+SOOT = "particles: {description: none, pah: [A2], initial: " + START.replace("@", "") + "}\n"
+ENSEMBLE = SOOT.replace("description: none", "description: ensemble, number: 200, method: sammc")
+TREES = "particles: {description: trees, number: 200, initial: " + START.replace("@", ", units: [1, 0]") + "}\n"
 BEGINS = {**{model: SOOT.replace("none", model) for model in ("two_equation_dimer", "leung", "sectional", "momic", "hmom")},
           **{method: ENSEMBLE.replace("sammc", method) for method in ("dsmc", "swa", "sammc")},
-          "trees": "soot: {pah: [A2]}\nstochastic: {exchange: two_way}\n" + TREES}
+          "trees": TREES}
 
 
 def check_begins(program, folder):
@@ -71,8 +71,8 @@ def check_begins(program, folder):
             # What copies of numerical trees come and go with is counted.
             assert abs(content[-1] / content[0] - 1) < (0.2 if name == "trees" else 1e-11), (name, content)
             assert file["history/C_budget_error"][-1] < 1e-11, name
-    for text, expected_message in ((BOX + SOOT, "expected a 'soot.model'"),
-                                   (BOX + SOOT + BEGINS["trees"].split("\n", 1)[1], "said in 'particles.initial'")):
+    for text, expected_message in ((BOX + SOOT, "expected a model as 'particles.description'"),
+                                   (BOX + ENSEMBLE[:ENSEMBLE.index("initial")] + "initial: {number: 1e15}}\n", "need a 'distribution'")):
         deck.write_text(text, encoding="utf-8")
         result = program("check", deck)
         assert result.code == 2 and expected_message in result.err, (result.code, result.err)
@@ -141,7 +141,7 @@ def main(executable, *mpiexec):
         check_begins(program, folder)
         taken = check_walls(program, other, deck, folder)
         ensembles = check_walls(program, other, deck, folder / "ensembles",
-                                "stochastic={number: 50, minimum_number_density: 1e9 1/m^3}")
+                                "particles={description: ensemble, number: 50, minimum_number_density: 1e9 1/m^3}")
         print(f"walls took {taken:.3g} kg/rad of the model's particles, {ensembles:.3g} of ensembles")
     print("passed")
 

@@ -33,14 +33,13 @@ inlet: {{temperature: 300 K, composition: "C2H4: 0.16, O2: 0.24, N2: 0.6", veloc
 temperature_profile: {{position: [0 mm, 1 mm, 2 mm, 6 mm], temperature: [300 K, 1500 K, 1700 K, 1600 K]}}
 grid: {{refine: false, initial_points: 20}}
 solver: {{species_tolerance: 1e-8}}
-soot: {{model: sectional, pah: [A2]}}
-stochastic: {{number: 50, repeats: 2, heights: [5 mm], bins: 5, coupling: two_way, iterations: 2, tolerance: 1}}
+particles: {{description: ensemble, carried: sectional, pah: [A2], number: 50, repeats: 2, heights: [5 mm], bins: 5, coupling: two_way, iterations: 2, tolerance: 1}}
 unsteady: {{end: 0.01 ms, output_interval: 0.01 ms, first_step: 1 us}}
 """
 
 # The same with trees of primaries in place of the ensemble.
-SOOT_TREES = re.sub("stochastic:.*\nunsteady:.*\n", "stochastic: {coupling: two_way, iterations: 2, tolerance: 1}\n"
-                    "particles: {material: soot, number: 256, repeats: 2, expected_number: 1e18 1/m^3, bins: 5}\n", SOOT)
+SOOT_TREES = re.sub("particles:.*\nunsteady:.*\n", "particles: {description: trees, carried: sectional, coupling: two_way, iterations: 2, "
+                    "tolerance: 1, number: 256, repeats: 2, expected_number: 1e18 1/m^3, bins: 5}\n", SOOT)
 
 POPULATION = """problem: population_balance
 initial: {distribution: exponential, number: 1e6 1/cm^3, diameter: 10 nm}
@@ -139,9 +138,9 @@ def main(executable: str, *mpiexec: str) -> int:
                 f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms", "output.boundaries=[wall]"))
         # All blocks of an instant: five are soon over.
         runs["flow_ensembles"] = (ensembles, *running.settings(
-            "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "stochastic={number: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
-            "stochastic.statistics={start: 10 us, block: 2 us}",
-            "stochastic.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
+            "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "particles={description: ensemble, number: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
+            "particles.statistics={start: 10 us, block: 2 us}",
+            "particles.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (SOOT_TREES, "flame_trees"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)
@@ -153,25 +152,25 @@ def main(executable: str, *mpiexec: str) -> int:
         runs["stirred_mass"] = (*runs["stirred"], *running.settings("output.fractions=mass"))
         runs["stirred_in_time"] = (CASES / "reactor/stirred_methane/deck.yaml", *running.settings("time.end=0.1 ms"))
 
-        sections = ("soot.model=sectional", "soot.sectional.overflow=1", "output.species=[A2]")
+        sections = ("particles.description=sectional", "particles.sectional.overflow=1", "output.species=[A2]")
         runs["closed_soot"] = (CASES / "reactor/closed_soot/deck.yaml", *running.settings("time.end=0.1 ms", *sections))
         runs["stirred_soot"] = (CASES / "reactor/stirred_soot/deck.yaml", *running.settings(*sections))
         runs["ensemble"] = (CASES / "reactor/plug_flow_soot/deck.yaml", *running.settings(
-            "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "stochastic.repeats=2", "stochastic.number=50",
-            "stochastic.bins=5"))
+            "reactor.length=5 mm", "output.spacing=5 mm", "particles.description=ensemble", "particles.repeats=2", "particles.number=50",
+            "particles.bins=5"))
 
         runs["trees"] = (CASES / "reactor/silica_batch/deck.yaml", *running.settings(
             "time.end=10 ms", "output.species=[H2O]", "particles.number=50", "particles.repeats=2", "particles.bins=5",
             "particles.tables_at=[10 ms]", "particles.classes={collision_diameter: [1 nm], primaries: [2]}"))
         runs["soot_trees"] = (CASES / "reactor/plug_flow_soot/deck.yaml", *running.settings(
-            "reactor.length=5 mm", "output.spacing=5 mm", "soot.model=none", "particles.material=soot", "particles.repeats=2",
+            "reactor.length=5 mm", "output.spacing=5 mm", "particles.description=trees", "particles.repeats=2",
             "particles.number=50", "particles.bins=5", "particles.fragmentation=true"))
         along = CASES / "particles_along/premixed_ethylene_abf/deck.yaml"
-        runs["along"] = (along, *running.settings("stochastic.repeats=2", "stochastic.number=32", "gas.end=4 ms", "output.times=[1 ms]",
+        runs["along"] = (along, *running.settings("particles.repeats=2", "particles.number=32", "gas.end=4 ms", "output.times=[1 ms]",
                                                   "output.interval=2 ms"))
         along_model = folder / "along_model.yaml"
         along_model.write_text(f"problem: prescribed_gas\nmechanism: {CASES}/mechanisms/ethylene_abf2000_101.yaml\n"
-                               f"gas: {{file: {along.parent}/gas.csv, end: 1 ms}}\nsoot: {{model: sectional, pah: [A4]}}\n"
+                               f"gas: {{file: {along.parent}/gas.csv, end: 1 ms}}\nparticles: {{description: sectional, pah: [A4]}}\n"
                                "output: {interval: 1 ms}\n", encoding="utf-8")
         runs["along_model"] = (along_model,)
 

@@ -37,8 +37,8 @@ mesh: {r: [{to: 1 mm, cells: 2}], z: [{to: 1 mm, cells: 2}]}
 boundaries: {low: {type: outlet, side: z-min}}
 initial: {layer: none, composition: 'N2: 1'}
 time: {end: 1 s}
-soot: {model: two_equation_dimer}
-stochastic:
+particles:
+  description: ensemble
   number: 300
   averaging_time: 1 ms
   frozen_gas: 2 ms
@@ -51,7 +51,6 @@ transport: {collision_integrals: wang_fits}
                             {"frozen_gas", "hold_gas"},
                             {"minimum_number_density", "least_number"},
                             {"bundled_growth", "share_at_once"},
-                            {"two_equation_dimer", "two_equation"},
                             {"wang_fits", "thesis_fits"}});
 }
 
@@ -60,11 +59,15 @@ TEST(FormerNames, OfPrescribedGases) {
 mechanism: gas.yaml
 gas: {flame: results.h5, minimum_velocity: 2 mm/s}
 particles:
+  material: silica
+  description: trees
+  van_der_waals: 2
   expected_number: 1e16 1/m^3
   sintering: {mechanism: constant, prefactor: 1, activation_temperature: 3 K}
 )",
                            {{"prescribed_gas", "particles_along"},
                             {"minimum_velocity", "slowest"},
+                            {"van_der_waals", "enhancement"},
                             {"expected_number", "full_at"},
                             {"activation_temperature", "temperature"}});
 }
@@ -74,10 +77,12 @@ TEST(FormerNames, OfFlames) {
 mechanism: gas.yaml
 flame: {type: burner}
 inlet: {temperature: 300 K, velocity: 1 m/s, composition: 'N2: 1'}
-soot: {model: two_equation_dimer}
-stochastic: {coupling: two_way, minimum_velocity: 2 mm/s, number: 50, iterations: 3}
+particles: {description: ensemble, carried: two_equation_dimer, coupling: two_way, minimum_velocity: 2 mm/s, number: 50, iterations: 3}
 )",
-                           {{"coupling", "coupled"}, {"minimum_velocity", "slowest"}, {"number: 50", "particles: 50"}});
+                           {{"two_equation_dimer", "two_equation"},
+                            {"coupling", "coupled"},
+                            {"minimum_velocity", "slowest"},
+                            {"number: 50", "particles: 50"}});
 }
 
 TEST(FormerNames, OfPopulationBalances) {

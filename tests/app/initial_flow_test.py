@@ -82,7 +82,7 @@ MISFITS = [
 def other_mechanism(program, deck, folder):
     """Species go by name: those that this mechanism lacks are left out and told, the others scaled to sum one; those that the earlier
     one lacks are zero. Where much would be left out the start is refused."""
-    start = ("initial={layer: none, flow: {results: ../doped}}", "soot.model=none", "boundaries.fuel.composition=C2H4: 1", "time.end=1 us")
+    start = ("initial={layer: none, flow: {results: ../doped}}", "particles.description=none", "boundaries.fuel.composition=C2H4: 1", "time.end=1 us")
     out = folder / "other"
     result = program("run", deck, "--out", out, *running.settings(*start, f"mechanism={running.SOURCE}/cases/mechanisms/methane_gri30_53.yaml"))
     assert result.code == 0, result.err
@@ -108,7 +108,7 @@ def told_mass(program, deck, folder):
     """The mass that is told is that of the molar masses in the earlier results, in hot gas too, whose density is not quite that of its
     temperature."""
     mechanism = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
-    result = program("check", deck, *running.settings(START, "soot.pah=[A4]", f"mechanism={mechanism}"))
+    result = program("check", deck, *running.settings(START, "particles.pah=[A4]", f"mechanism={mechanism}"))
     assert result.code == 0, result.err
     with h5py.File(folder / "earlier/results.h5") as file:
         step = file["steps"][max(file["steps"])]
@@ -223,7 +223,7 @@ def main(executable, *mpiexec):
         folder = pathlib.Path(name)
         deck = running.small_case(folder)
         for program, out, setting in ((two, "earlier", "boundaries.fuel.swirl_velocity=10 cm/s"), (one, "short", "output.species=[O2]"),
-                                      (one, "sootless", "soot.model=none"),
+                                      (one, "sootless", "particles.description=none"),
                                       (one, "doped", 'boundaries.fuel.composition="C2H4: 0.995, A1: 0.005"')):
             result = program("run", deck, "--out", folder / out, *running.settings(setting))
             assert result.code == 0, result.err

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/models/carried_operator.hpp"
@@ -50,8 +51,8 @@ class Dust final : public ParticleModel {
 };
 
 void addDustKeys(DeckSchema& schema) {
-  schema.section("soot.dust", Presence::defaulted, "The model dust.", {{"soot.model", {"dust"}}})
-      .add(quantityKey("soot.dust.rate", units::frequency, "How fast it vanishes.").byDefault("10 1/s").above(0));
+  schema.section("particles.dust", Presence::defaulted, "The model dust.", {{"particles.description", {"dust"}}})
+      .add(quantityKey("particles.dust.rate", units::frequency, "How fast it vanishes.").byDefault("10 1/s").above(0));
 }
 
 SootModelOptions dustDefaults() {
@@ -59,7 +60,7 @@ SootModelOptions dustDefaults() {
 }
 
 std::unique_ptr<ParticleModel> readDust(const Deck& deck, const Mechanism&) {
-  return std::make_unique<Dust>(deck.quantity("soot.dust.rate"));
+  return std::make_unique<Dust>(deck.quantity("particles.dust.rate"));
 }
 
 std::vector<SootModelEntry> modelsAndDust() {
@@ -70,8 +71,8 @@ std::vector<SootModelEntry> modelsAndDust() {
 
 TEST(NewModel, IsARowOfTheTableAndGoesIntoAFlow) {
   DeckSchema schema;
-  addSootModelKeys(schema, modelsAndDust());
-  const Deck deck = Deck::parse("soot: {model: dust, dust: {rate: 100 1/s}}", "deck.yaml", {}, schema);
+  addParticleKeys(schema, {.description = "Particles."}, modelsAndDust());
+  const Deck deck = Deck::parse("particles: {description: dust, dust: {rate: 100 1/s}}", "deck.yaml", {}, schema);
   Flame flame(MPI_COMM_WORLD, test::sootingGas);
   const Mechanism& mechanism = *flame.flowCase.mechanism;
   CarriedParticles dust(mechanism, readSootModel(deck, mechanism, modelsAndDust()));

@@ -16,13 +16,13 @@ h5py, np = running.package("h5py"), running.package("numpy")
 CASE = running.SOURCE / "cases/particles_along/premixed_ethylene_abf"
 SILICA = running.SOURCE / "cases/particles_along/silica_teos"
 MECHANISM = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
-SHORT = ("stochastic.number=256", "stochastic.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
-         "stochastic.split_tolerance=0.05", "stochastic.smallest=0.5 nm")
+SHORT = ("particles.number=256", "particles.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
+         "particles.split_tolerance=0.05", "particles.smallest=0.5 nm")
 GAS = ("time [s],temperature [K],pressure [Pa],X_AR,X_A4,X_H\n0,1700,1e5,0.999,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n")
 MODEL = """problem: prescribed_gas
 mechanism: {mechanism}
 gas: {{file: gas.csv}}
-soot: {{model: {model}, pah: [A4]}}
+particles: {{description: {model}, pah: [A4]}}
 output: {{interval: 5 ms}}
 """
 
@@ -37,14 +37,12 @@ solver: {{species_tolerance: 1e-8}}
 ALONG_FLAME = f"""problem: prescribed_gas
 mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
 gas: {{flame: flame/results.h5}}
-soot: {{model: none, pah: [A2]}}
-stochastic: {{number: 100, repeats: 2}}
+particles: {{description: ensemble, pah: [A2], number: 100, repeats: 2}}
 """
 # Without the gas.
 TREES_ALONG_FLAME = f"""problem: prescribed_gas
 mechanism: {MECHANISM.parent}/ethylene_bisetti2012_47.yaml
-soot: {{model: none, pah: [A2]}}
-particles: {{material: soot, number: 50, repeats: 2, expected_number: 1e16 1/m^3}}
+particles: {{description: trees, pah: [A2], number: 50, repeats: 2, expected_number: 1e16 1/m^3}}
 """
 
 # Rows of the gas, keys, and words of the message.
@@ -54,19 +52,19 @@ WRONG_GAS = (("0,1700,1e5,0.999,1e-6,1e-4\n0,1700,1e5,0.999,1e-6,1e-4\n", "the t
              ("0,1700,1e5,0.5,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "add up to 0.5001"),
              ("0,1700,1e5,0.999,-1e-3,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "mole fraction of A4"),
              ("0,1700,1e5,0.999,nan,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n", "line 2"))
-WRONG = (("stochastic.coupling_change=0.1", "stochastic.coupling_change", "one_way"),
+WRONG = (("particles.coupling_change=0.1", "particles.coupling_change", "one_way"),
          ("gas.depleted=[A4]", "gas.depleted", "two_way"),
          ("gas.file=nowhere.csv", "gas.file", "nowhere.csv"),
          ("gas.flame=gas.csv", "gas", "either 'file'"),
          ("gas.side=right", "gas.side", "leave it out"),
          ("gas.end=1 s", "gas.end", "as far as the gas is known"),
          ("output.times=[30 ms]", "output.times", "outside the run"),
-         ("soot.model=hmom", "soot.model", "takes the place"),
-         ("soot.pah=[A2, A4]", "soot.pah", "one PAH"),
-         ("soot.surface.growth=[1, 2]", "soot.surface.growth", "3"),
-         ("soot.surface.growth=[-1, 2, 3]", "soot.surface.growth", "zero or more"),
-         ("stochastic.growth=never", "stochastic.growth", "events"),
-         ("soot.inception_by=dimers", "soot.monomer_mass", "monomers"))
+         ("particles.description=hmom", "particles.method", "does not have this"),
+         ("particles.pah=[A2, A4]", "particles.pah", "one PAH"),
+         ("particles.surface.growth=[1, 2]", "particles.surface.growth", "3"),
+         ("particles.surface.growth=[-1, 2, 3]", "particles.surface.growth", "zero or more"),
+         ("particles.growth_by=never", "particles.growth_by", "events"),
+         ("particles.inception_by=dimers", "particles.monomer_mass", "monomers"))
 
 
 def check_ensembles(program, folder: pathlib.Path) -> None:
@@ -106,9 +104,9 @@ def check_rank_independence(programs: tuple, folder: pathlib.Path) -> None:
     (folder / "gas.csv").write_text(GAS, encoding="utf-8")
     flame_file(programs[0], folder)
     trees = ("particles.number=32", "particles.repeats=3", "particles.tables_at=[]", "gas.end=20 ms")
-    spheres = ("stochastic.number=64", *SHORT[1:])
+    spheres = ("particles.number=64", *SHORT[1:])
     decks = {"spheres": (CASE / "deck.yaml", spheres), "depleting": (CASE / "deck.yaml", (
-        *spheres, "gas.exchange=two_way", "stochastic.coupling_change=0.3")), "silica": (SILICA / "deck.yaml", trees)}
+        *spheres, "gas.exchange=two_way", "particles.coupling_change=0.3")), "silica": (SILICA / "deck.yaml", trees)}
     for name, text in (("sectional", MODEL.format(mechanism=MECHANISM, model="sectional")), ("flame", ALONG_FLAME),
                        ("trees", TREES_ALONG_FLAME + "gas: {flame: flame/results.h5, exchange: two_way}\n")):
         (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
@@ -138,10 +136,10 @@ def check_models(program, folder: pathlib.Path) -> None:
 def check_depletion(program, folder: pathlib.Path) -> None:
     """What an ensemble and a model leave of their PAH: less than given, the same of both, by two ways of coupling."""
     left, given = {}, {}
-    for name, more in (("hmom", ""), ("ensemble", "stochastic: {number: 1000, repeats: 3}\n")):
+    for name, more in (("hmom", ""), ("ensemble", ", number: 1000, repeats: 3")):
         deck = folder / f"depleted_{name}.yaml"
         deck.write_text(f"problem: prescribed_gas\nmechanism: {MECHANISM}\ngas: {{file: {CASE}/gas.csv, exchange: two_way, end: 16 ms}}\n"
-                        f"soot: {{model: {'none' if more else 'hmom'}, pah: [A4]}}\noutput: {{interval: 4 ms}}\n{more}", encoding="utf-8")
+                        f"particles: {{description: {name}, pah: [A4]{more}}}\noutput: {{interval: 4 ms}}\n", encoding="utf-8")
         result = program("run", deck, "--out", folder / f"depleted_{name}_{program.ranks}", timeout=120)
         assert result.code == 0, f"{name}: {result.err}"
         with h5py.File(folder / f"depleted_{name}_{program.ranks}/results.h5", "r") as file:
@@ -207,7 +205,7 @@ def check_flame(program, folder: pathlib.Path) -> None:
     with h5py.File(folder / "flame/results.h5", "r") as flame, h5py.File(folder / "trees_two_way/results.h5", "r") as file:
         left, most = file["history/X_A2"][()], np.max(flame["flame/X/A2"][()])
     assert 0 < np.max(left) < 1.001 * most, (left, most)
-    wrong = program("run", deck, "--out", folder / "wrong_flame", *running.settings(f"mechanism={MECHANISM}", "soot.pah=[A4]"))
+    wrong = program("run", deck, "--out", folder / "wrong_flame", *running.settings(f"mechanism={MECHANISM}", "particles.pah=[A4]"))
     assert wrong.code == 2 and "other species" in wrong.err, wrong.err
 
 
@@ -242,7 +240,7 @@ def check_refusals(program, folder: pathlib.Path) -> list:
     deck = folder / "hmom_of_monomers.yaml"
     deck.write_text(MODEL.format(mechanism=MECHANISM, model="hmom").replace("pah: [A4]", "pah: [A4], inception_by: monomers"),
                     encoding="utf-8")
-    refused(program("run", deck, "--out", folder / "never"), ("soot.inception_by", "only ensembles"), "hmom of monomers")
+    refused(program("run", deck, "--out", folder / "never"), ("particles.inception_by", "does not have this"), "hmom of monomers")
     if (folder / "never").exists():
         problems.append("a refused run left a folder")
     return problems

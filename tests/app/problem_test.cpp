@@ -61,7 +61,7 @@ TEST(Problems, AFlowNeedsACellForEveryRank) {
        "oxidiser: {type: inlet, side: z-max, velocity: 1, temperature: 300, composition: \"O2: 1\"}, "
        "axis: {type: symmetry, side: r-min}, "
        "outflow: {type: outlet, side: r-max, temperature: 300, composition: \"N2: 1\"}}",
-       "soot.model=none"},
+       "particles.description=none"},
       deckKinds(), MPI_COMM_WORLD);
   if (ranks == 1) {
     EXPECT_THAT(problemOf(deck).prepare(MPI_COMM_WORLD, deck)->summary(), HasSubstr("1 cells"));

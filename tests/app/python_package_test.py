@@ -68,7 +68,7 @@ def check_reactor(folder):
     assert next(iter(history)) == "time" and history["temperature"].unit == "K" and history["temperature"][0] == 1200.0
     assert list(run.table("sensitivity")["reaction"]) == [1, 2] and run.table("sensitivities.csv")["equation"][0]
     along = lampblack.run(CASES / "particles_along/premixed_ethylene_abf/deck.yaml",
-                          set={"stochastic.repeats": 2, "stochastic.number": 64}, out=folder / "along")
+                          set={"particles.repeats": 2, "particles.number": 64}, out=folder / "along")
     distribution = along.distributions()["soot"]
     rows = len(along.history()["time"])
     assert distribution.density.shape == distribution.error.shape == (rows, len(distribution.sizes))

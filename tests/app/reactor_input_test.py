@@ -74,11 +74,12 @@ initial:
 time:
   end: 1 ms
 particles:
+  material: silica
+  description: trees
   number: 100
 """
 
-OWN_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)) + """  material: table
-  density: 1800 kg/m^3
+OWN_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)).replace("silica", "table") + """  density: 1800 kg/m^3
   table:
     name: own
     components:
@@ -96,8 +97,7 @@ OWN_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)) + """  material: table
 """
 
 # Particles of nitrogen, whose heat nobody knows.
-FROZEN_TREES = TREES + """  material: table
-  density: 1027 kg/m^3
+FROZEN_TREES = TREES.replace("silica", "table") + """  density: 1027 kg/m^3
   table:
     name: frozen
     components:
@@ -114,7 +114,7 @@ FROZEN_TREES = TREES + """  material: table
     growth_products: 0
 """
 
-SOOT_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)) + "  material: soot\nsoot:\n  pah: [A2]\n"
+SOOT_TREES = TREES.replace(str(HYDROGEN), str(ETHYLENE)).replace("silica", "soot") + "  pah: [A2]\n"
 
 # Name, deck, text to replace, its replacement, what the message says.
 SOOT = f"""problem: reactor
@@ -125,39 +125,50 @@ reactor:
 inlet:
   temperature: 300 K
   composition: "C2H4: 0.11, O2: 0.17, N2: 0.72"
-soot:
+particles:
+  description: two_equation_dimer
   pah: [A2]
 """
+ENSEMBLE = "description: two_equation_dimer", "description: ensemble"
 
-CLOSED_SOOT = CLOSED[:CLOSED.index("sensitivity:")].replace(str(HYDROGEN), str(ETHYLENE)) + "soot:\n  pah: [A2]\n"
+CLOSED_SOOT = CLOSED[:CLOSED.index("sensitivity:")].replace(str(HYDROGEN), str(ETHYLENE)) + "particles:\n  description: two_equation_dimer\n  pah: [A2]\n"
 
 SOOT_MISTAKES = [
-    ("soot of another mechanism", STIRRED, "inlet:", "soot: {pah: [A2]}\ninlet:", ("soot",)),
-    ("diffusion in a reactor", SOOT, "pah: [A2]", "diffusion: true", ("soot.diffusion: a reactor is well mixed",)),
-    ("unknown model", SOOT, "pah: [A2]", "model: three_equation", ("soot.model",)),
-    ("PAH that is none", SOOT, "pah: [A2]", "pah: [A1]", ("soot.pah", "is not a polycyclic aromatic hydrocarbon")),
+    ("soot of another mechanism", STIRRED, "inlet:", "particles: {description: hmom}\ninlet:", ("particles",)),
+    ("diffusion in a reactor", SOOT, "pah: [A2]", "diffusion: true", ("particles.diffusion: a reactor is well mixed",)),
+    ("unknown model", SOOT, "description: two_equation_dimer", "description: three_equation", ("particles.description",)),
+    ("PAH that is none", SOOT, "pah: [A2]", "pah: [A1]", ("particles.pah", "is not a polycyclic aromatic hydrocarbon")),
     ("sensitivities with soot", CLOSED_SOOT, "pah: [A2]", "pah: [A2]\nsensitivity: {reactions: [all]}",
      ("sensitivity: sensitivities are those of a gas alone",)),
-    ("ignition with an ensemble", CLOSED_SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 2}\nignition: {species: [OH]}",
+    ("ignition with an ensemble", CLOSED_SOOT, "description: two_equation_dimer\n  pah: [A2]", "description: ensemble\nignition: {species: [OH]}",
      ("ignition: ignition delays of a gas with an ensemble",)),
-    ("steady ensemble in a network", NETWORK.replace(str(HYDROGEN), str(ETHYLENE)), "\nnetwork:\n", "\nsoot: {pah: [A2]}\nstochastic: {repeats: 2}\nnetwork:\n",
-     ("stochastic: the steady state of an ensemble is a mean over time",)),
+    ("steady ensemble in a network", NETWORK.replace(str(HYDROGEN), str(ETHYLENE)), "\nnetwork:\n", "\nparticles: {description: ensemble}\nnetwork:\n",
+     ("particles: the steady state of an ensemble is a mean over time",)),
     ("network in time without ensembles", NETWORK, "\nnetwork:\n", "\ntime: {end: 1 ms}\nnetwork:\n",
      ("time.end: the steady state of a network is computed",)),
     ("ensemble of a reactor whose name no results can have", NETWORK.replace(str(HYDROGEN), str(ETHYLENE)).replace("one", "a/b"),
-     "\nnetwork:\n", "\ntime: {end: 1 ms}\nsoot: {pah: [A2]}\nstochastic: {repeats: 2}\nnetwork:\n", ("network.reactors.a/b: results of ensembles",)),
-    ("ensemble without soot", STIRRED, "inlet:", "stochastic: {repeats: 2}\ninlet:",
-     ("stochastic: ensembles need the section 'soot'",)),
-    ("ensemble and model", SOOT, "pah: [A2]", "model: hmom\nstochastic: {repeats: 2}",
-     ("soot.model: an ensemble takes the place of a model",)),
-    ("steady ensemble", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 2}",
-     ("stochastic: the steady state of an ensemble is a mean over time",)),
-    ("key of flames", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {coupling: two_way}", ("stochastic.coupling",)),
-    ("a fractal dimension of spheres", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {fractal_dimension: 1.8}",
-     ("stochastic.fractal_dimension: 'stochastic.shape: spheres' does not have this",)),
-    ("a fractal dimension above three", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {shape: surface_volume, fractal_dimension: 3.5}",
-     ("stochastic.fractal_dimension", "from 1 to 3")),
-    ("one repeat", SOOT, "pah: [A2]", "pah: [A2]\nstochastic: {repeats: 1}", ("stochastic.repeats",)),
+     "\nnetwork:\n", "\ntime: {end: 1 ms}\nparticles: {description: ensemble}\nnetwork:\n", ("network.reactors.a/b: results of ensembles",)),
+    ("particles without a description", SOOT, "description: two_equation_dimer", "density: 1800 kg/m^3",
+     ("particles.description: this key is missing",)),
+    ("ensemble beside a model of former sections", SOOT, "particles:\n  description: two_equation_dimer", "stochastic: {repeats: 2}\nsoot:\n  model: hmom",
+     ("soot.model: an ensemble or trees take the place of a model",)),
+    ("former sections beside the present one", SOOT, "particles:", "soot: {pah: [A2]}\nparticles:",
+     ("soot: the section 'particles' has taken its place",)),
+    ("a number of a model", SOOT, "pah: [A2]", "number: 100", ("particles.number: 'particles.description: two_equation_dimer' does not have this",)),
+    ("a model beside an ensemble", SOOT, "description: two_equation_dimer", "description: ensemble\n  carried: hmom", ("unknown key 'carried'",)),
+    ("spheres of silica", TREES, "description: trees", "description: ensemble\n  shape: spheres", ("particles.shape: spheres are of soot",)),
+    ("a model of silica", TREES, "description: trees\n  number: 100", "description: hmom", ("particles.description: hmom is a model of soot",)),
+    ("a method of silica", TREES, "description: trees", "description: ensemble\n  method: dsmc", ("particles.method: 'particles.material: silica' does not have this",)),
+    ("a kernel of spheres", SOOT, "description: two_equation_dimer", "description: ensemble\n  kernel: continuum",
+     ("particles.kernel: 'particles.description: ensemble' does not have this; leave it out, or choose: trees, none; or 'particles.material': silica, table",)),
+    ("steady ensemble", SOOT, *ENSEMBLE,
+     ("particles: the steady state of an ensemble is a mean over time",)),
+    ("key of flames", SOOT, "description: two_equation_dimer", "description: ensemble\n  coupling: two_way", ("particles.coupling",)),
+    ("a fractal dimension of spheres", SOOT, "description: two_equation_dimer", "description: ensemble\n  fractal_dimension: 1.8",
+     ("particles.fractal_dimension: 'particles.description: ensemble' does not have this",)),
+    ("a fractal dimension above three", SOOT, "description: two_equation_dimer", "description: ensemble\n  shape: surface_volume\n  fractal_dimension: 3.5",
+     ("particles.fractal_dimension", "from 1 to 3")),
+    ("one repeat", SOOT, "description: two_equation_dimer", "description: ensemble\n  repeats: 1", ("particles.repeats",)),
 ]
 
 MISTAKES = SOOT_MISTAKES + [
@@ -168,14 +179,13 @@ MISTAKES = SOOT_MISTAKES + [
     ("particles at the start by half", TREES, "number: 100", "initial: {number: 1e14 1/m^3}", ["particles.initial"]),
     ("units below zero", TREES, "number: 100", "initial: {number: 1e14 1/m^3, units: [1, -1, 0]}", ["units"]),
     ("parts by the smaller primary", TREES, "number: 100", "sintering: {between: parts}", ["particles.sintering.size"]),
-    ("particles and soot", TREES, "particles:", "soot: {model: none}\nparticles:", ["soot"]),
+    ("former sections of soot and of silica", TREES, "particles:\n  material: silica\n  description: trees", "soot: {model: none}\nparticles:\n  material: silica", ["soot: the particles of the deck are of silica"]),
     ("too much smoothing", TREES, "number: 100", "smoothing: 2.5", ["particles.smoothing"]),
-    ("necks without primaries", TREES, "number: 100", "shape: surface_volume\n  sintering: {between: neighbours}",
-     ["particles.sintering.between: 'particles.shape: surface_volume' does not have this"]),
-    ("tables without primaries", TREES, "number: 100", "shape: surface_volume\n  tables_at: [1 ms]",
-     ["particles.tables_at: 'particles.shape: surface_volume' does not have this"]),
-    ("soot by volume and surface", SOOT_TREES, "number: 100", "shape: surface_volume",
-     ["particles.shape: soot by volume and surface is 'stochastic"]),
+    ("necks without primaries", TREES, "description: trees", "description: ensemble\n  sintering: {between: neighbours}",
+     ["particles.sintering.between: 'particles.description: ensemble' does not have this"]),
+    ("tables without primaries", TREES, "description: trees", "description: ensemble\n  tables_at: [1 ms]",
+     ["particles.tables_at: 'particles.description: ensemble' does not have this"]),
+    ("trees of a shape", SOOT_TREES, "number: 100", "shape: surface_volume", ["particles.shape: 'particles.description: trees' does not have this"]),
     ("a component without mass", OWN_TREES, "24.022 g/mol", "0 g/mol", ["particles.table.components[1].weight"]),
     ("a component of too few atoms", OWN_TREES, "[C, H], atoms: [1, 1]", "[C, H], atoms: [1]", ["components[0].atoms", "1 numbers for 2 elements"]),
     ("a nucleus of other components", OWN_TREES, "nucleus: [2, 1]", "nucleus: [2, 1, 0]", ["particles.table.nucleus", "3 numbers for 2 components"]),
@@ -184,11 +194,12 @@ MISTAKES = SOOT_MISTAKES + [
     ("sites that are bridges", OWN_TREES, "bridge: C2", "bridge: CH", ["two components"]),
     ("a species that is not there", OWN_TREES, "precursor: C2H2", "precursor: TICL4", ["need the species 'TICL4'"]),
     ("a negative rate", OWN_TREES, "density: 1800", "growth_rate: -1 cm^3/mol/s\n  density: 1800", ["particles.growth_rate"]),
-    ("a table without one", TREES, "number: 100", "material: table", ["particles.material", "needs the section 'particles.table'"]),
+    ("a table without one", TREES, "material: silica", "material: table", ["particles.material", "needs the section 'particles.table'"]),
     ("a table beside a material", OWN_TREES, "material: table", "material: silica", ["particles.table: 'particles.material: silica' does not have this"]),
-    ("soot without its section", TREES.replace(str(HYDROGEN), str(ETHYLENE)), "number: 100", "material: soot", ["particles.material", "needs the section 'soot'"]),
-    ("soot with a model", SOOT_TREES, "pah: [A2]", "model: hmom", ["soot.model: trees of primaries take the place"]),
-    ("soot of two densities", SOOT_TREES, "number: 100", "density: 1800 kg/m^3", ["particles.density: of soot this is 'soot.density'"]),
+    ("former trees of soot with a model", SOOT_TREES, "  description: trees\n  number: 100\n  pah: [A2]", "  number: 100\nsoot: {model: hmom}", ["soot.model: an ensemble or trees take the place of a model"]),
+    ("former soot of two densities", SOOT_TREES, "  description: trees\n  number: 100\n  pah: [A2]", "  density: 1800 kg/m^3\nsoot: {density: 1700 kg/m^3}",
+     ["soot.density: this is 'particles.density' now, which is given too"]),
+    ("PAH of silica", TREES, "number: 100", "pah: [A2]", ["particles.pah: 'particles.material: silica' does not have this"]),
     ("sites of soot", SOOT_TREES, "number: 100", "growth_rate: 1 cm^3/mol/s", ["particles.growth_rate: 'particles.material: soot' does not have this"]),
     ("necks of silica that break", TREES, "number: 100", "fragmentation: true", ["particles.fragmentation: 'particles.material: silica' does not have this"]),
     ("a factor of breaking silica", TREES, "number: 100", "fragmentation_factor: 1e5", ["particles.fragmentation_factor: 'particles.material: silica' does not have this"]),
@@ -196,7 +207,7 @@ MISTAKES = SOOT_MISTAKES + [
     ("sintering of soot by nothing", SOOT_TREES, "number: 100", "sintering: {mechanism: constant}", ["particles.sintering", "needs the key 'prefactor'"]),
     ("units of soot", SOOT_TREES, "number: 100", "initial: {number: 1e14 1/m^3, units: [1, 1, 0]}", ["particles.initial.units", "3 numbers for 2 components of soot"]),
     ("soot of nothing", SOOT_TREES, "number: 100", "initial: {number: 1e14 1/m^3, units: [0, 0]}", ["an initial particle needs mass"]),
-    ("a material without a name", TREES, "number: 100", "material: gold", ["particles.material"]),
+    ("a material without a name", TREES, "material: silica", "material: gold", ["particles.material"]),
     ("no problem", CLOSED, "problem: reactor\n", "", ("problem: this key is missing", "flow, flame1d, reactor")),
     ("misspelt problem", CLOSED, "problem:", "probelm:", ("unknown key 'probelm'", "did you mean 'problem'?")),
     ("mole fractions by another name", STIRRED, "composition:", "mole_fractions:", ("unknown key 'mole_fractions'", "did you mean 'composition'?")),

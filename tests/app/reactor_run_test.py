@@ -134,7 +134,7 @@ def soot(program, folder):
     short = {"closed": ("time.end=0.5 ms",), "plug_flow": ("reactor.length=1 cm",), "stirred": ()}
     for k, (kind, settings) in enumerate(short.items()):
         for model in models[2 * k + program.ranks - 1:2 * k + 2]:
-            out, results, text = run(program, f"reactor/{kind}_soot", folder, f"soot.model={model}", *settings, "output.species=[A2]")
+            out, results, text = run(program, f"reactor/{kind}_soot", folder, f"particles.description={model}", *settings, "output.species=[A2]")
             results = results["reactors"]["reactor"] if kind == "stirred" else results
             assert results["element_imbalance"] < 1e-13 and abs(results["energy_imbalance"]) < 1e-9, (kind, model, results)
             fraction = results["soot_volume_fraction" if kind == "stirred" else "final_soot_volume_fraction"]
@@ -146,8 +146,8 @@ def soot(program, folder):
                 if model == "sectional":
                     assert file["particles/size_distribution"].shape == (group["soot_volume_fraction"].size, file["particles/diameter"].size)
             shutil.rmtree(out)
-        ensemble = ("soot.model=none", "stochastic.repeats=2", "stochastic.number=50", "integrator.relative_tolerance=1e-6",
-                    "stochastic.coupling_change=0.3", *settings, *(("time.end=0.2 ms",) if kind == "stirred" else ()))
+        ensemble = ("particles.description=ensemble", "particles.repeats=2", "particles.number=50", "integrator.relative_tolerance=1e-6",
+                    "particles.coupling_change=0.3", *settings, *(("time.end=0.2 ms",) if kind == "stirred" else ()))
         out, results, text = run(program, f"reactor/{kind}_soot", folder, *ensemble)
         with h5py.File(out / "results.h5", "r") as file:
             history = file["history"]
@@ -165,10 +165,10 @@ def ensembles_in_networks(program, folder):
     """A network of one reactor is the stirred reactor, to the last bit; two with a recycle have soot in both, elements balance.
     Ranks share the repeats, of one reactor as of two: two ranks have the first."""
     deck = (CASES / "reactor/stirred_soot/deck.yaml").read_text(encoding="utf-8").replace("../..", str(CASES))
-    inlet = deck[deck.index("inlet:"):deck.index("soot:")]
+    inlet = deck[deck.index("inlet:"):deck.index("particles:")]
     feed = "".join(f"    {line}\n" for line in inlet.split("\n")[1:] if line)
-    settings = ("soot.model=none", "stochastic.repeats=2", "stochastic.number=50", "integrator.relative_tolerance=1e-4",
-                "stochastic.coupling_change=0.3", "time.end=0.02 ms")
+    settings = ("particles.description=ensemble", "particles.repeats=2", "particles.number=50", "integrator.relative_tolerance=1e-4",
+                "particles.coupling_change=0.3", "time.end=0.02 ms")
 
     def history(name, reactors, connections):
         network = deck.replace(inlet, "").replace("type: stirred\n  residence_time: 5 ms", "type: network")
@@ -208,9 +208,9 @@ def behind_a_stirred_reactor(program, folder):
             f"reactor: {{type: plug_flow, length: 1 mm}}\nupstream: {{residence_time: 5 ms}}\ninlet: {inlet}\n"
             "integrator: {relative_tolerance: 1e-6}\noutput: {spacing: 1 mm, species: [A2]}\n")
     rows = {}
-    for name, more in (("hmom", "soot: {model: hmom, pah: [A2], density: 1800 kg/m^3}\n"),
-                       ("trees", "soot: {pah: [A2], density: 1800 kg/m^3}\n"
-                                 "particles: {material: soot, number: 64, repeats: 2, expected_number: 1e14 1/m^3, coupling_change: 0.5}\n")):
+    for name, more in (("hmom", "particles: {description: hmom, pah: [A2], density: 1800 kg/m^3}\n"),
+                       ("trees", "particles: {description: trees, pah: [A2], density: 1800 kg/m^3, "
+                                 "number: 64, repeats: 2, expected_number: 1e14 1/m^3, coupling_change: 0.5}\n")):
         deck = folder / f"{name}.yaml"
         deck.write_text(text + more, encoding="utf-8")
         result = program("run", deck, "--out", folder / name, timeout=300)
@@ -231,8 +231,8 @@ def behind_a_stirred_reactor(program, folder):
 def too_few_sections(program, folder):
     """Soot that outgrows its sections: one message, exit code 3."""
     result = program("run", CASES / "reactor/closed_soot/deck.yaml", "--out", folder / "out",
-                     *running.settings("soot.model=sectional", "soot.sectional.sections=6"))
-    assert result.code == 3 and "is in the largest particles of the model; the limit is" in result.err and "soot.sectional.sections" in result.err, result.err
+                     *running.settings("particles.description=sectional", "particles.sectional.sections=6"))
+    assert result.code == 3 and "is in the largest particles of the model; the limit is" in result.err and "particles.sectional.sections" in result.err, result.err
 
 
 def burning_or_out(program, folder):

@@ -20,7 +20,7 @@ import running
 SETTINGS = {
     "gas": running.settings("time.end=0.12 ms", "time.maximum_step=1 us", "output.interval=2 us", "checkpoint.steps=1"),
     "ensembles": running.settings("time.end=0.12 ms", "time.maximum_step=2 us", "output.interval=4 us", "checkpoint.steps=1",
-                                  "stochastic={number: 40, minimum_number_density: 1e9 1/m^3, averaging_time: 10 us}"),
+                                  "particles={description: ensemble, number: 40, minimum_number_density: 1e9 1/m^3, averaging_time: 10 us}"),
 }
 
 

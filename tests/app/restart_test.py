@@ -221,7 +221,7 @@ def check_wrong(program, folder, deck, whole):
     before = running.snapshot(folder)
     others = {"mesh": ["mesh.refinement=2"], "boundaries": ["boundaries.oxidiser_flange.type=symmetry"], "pressure": ["pressure=2 atm"],
               "mechanism": ["mechanism=../mechanisms/other.yaml"],
-              "particle model": ["soot.model=none"]}
+              "particle model": ["particles.description=none"]}
     for name, values in others.items():
         wrong = [*base, *running.settings(*values)]
         refusal(program, before, folder, [f"of another {name} (its own: "], deck, *wrong, "--out", whole, "--restart")
@@ -264,7 +264,7 @@ def check_full_disk(program, folder, deck):
     """A checkpoint for which there is no room is told, the former stays, and the run goes on. A limit on the size of files is
     treated as a full disk; the results are small enough for it."""
     out = folder / "full"
-    options = running.settings(*SETTINGS, "output.interval=1 s", "output.species=[O2]", "mesh.refinement=4", "soot.model=none")
+    options = running.settings(*SETTINGS, "output.interval=1 s", "output.species=[O2]", "mesh.refinement=4", "particles.description=none")
     run(program, deck, *options, *running.settings("time.end=1 us", "checkpoint.at_end=true"), "--out", out)
     (former,) = (out / "checkpoint").glob("step_*.h5")
     before = former.read_bytes()

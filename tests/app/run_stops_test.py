@@ -16,7 +16,7 @@ import restart_test
 import running
 
 # Some thousand steps, of which a run makes a part in a few seconds of wall time.
-LONG = running.settings("time.end=5 ms", "time.maximum_step=1 us", "output.interval=2.5 ms", "output.species=[O2]", "soot.model=none")
+LONG = running.settings("time.end=5 ms", "time.maximum_step=1 us", "output.interval=2.5 ms", "output.species=[O2]", "particles.description=none")
 LIMIT = 3.0  # s
 TABLE = "# measured\nr [mm],velocity [m/s]\n0,0.2\n5,{}\n10,0.2\n"
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/deck/particles_deck.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
@@ -34,7 +35,7 @@ const Mechanism& abf() {
 Deck deckOf(const std::string& text) {
   static const DeckSchema schema = [] {
     DeckSchema keys;
-    addSootModelKeys(keys);
+    addParticleKeys(keys, {.description = "Particles."});
     return keys;
   }();
   return Deck::parse(text, "deck.yaml", {}, schema);
@@ -50,11 +51,11 @@ const SootModelOptions& optionsOf(const std::unique_ptr<ParticleModel>& model) {
 
 TEST(SootDeck, WithoutASectionOrWithNoneThereIsNoSoot) {
   EXPECT_EQ(readSootModel(deckOf("{}"), abf()), nullptr);
-  EXPECT_EQ(readSootModel(deckOf("soot: {model: none}"), abf()), nullptr);
+  EXPECT_EQ(readSootModel(deckOf("particles: {description: none}"), abf()), nullptr);
 }
 
 TEST(SootDeck, DefaultsAreThePublishedConstants) {
-  const auto model = readSootModel(deckOf("soot: {pah: [A2, A3, A4]}"), abf());
+  const auto model = readSootModel(deckOf("particles: {description: two_equation_dimer, pah: [A2, A3, A4]}"), abf());
   const SootModelOptions& o = optionsOf(model);
   ASSERT_EQ(o.pah.size(), 3U);
   EXPECT_EQ(o.pah[1].carbon, 14);
@@ -69,11 +70,12 @@ TEST(SootDeck, DefaultsAreThePublishedConstants) {
 }
 
 TEST(SootDeck, EverythingCanBeSet) {
-  const auto model = readSootModel(deckOf("soot: {pah: [A2], sticking: [1.0e-3], density: 1.8 g/cm^3, "
-                                          "site_density: 1.0e15 1/cm^2, oh_efficiency: 0.2, van_der_waals: 1.5, "
-                                          "alpha_table: [{temperature: 1500 K, alpha: 0.9}, "
-                                          "{temperature: 1700 K, alpha: 0.1}], growth: false}"),
-                                   abf());
+  const auto model = readSootModel(
+      deckOf("particles: {description: two_equation_dimer, pah: [A2], sticking: [1.0e-3], density: 1.8 g/cm^3, "
+             "site_density: 1.0e15 1/cm^2, oh_efficiency: 0.2, van_der_waals: 1.5, "
+             "alpha_table: [{temperature: 1500 K, alpha: 0.9}, "
+             "{temperature: 1700 K, alpha: 0.1}], growth: false}"),
+      abf());
   const SootModelOptions& o = optionsOf(model);
   EXPECT_EQ(o.pah[0].stickingCoefficient, 1e-3);
   EXPECT_NEAR(o.sootDensity, 1800, 1e-9);
@@ -89,9 +91,9 @@ TEST(SootDeck, EverythingCanBeSet) {
 TEST(SootDeck, EveryModelOfTheListCanBeMade) {
   for (const SootModelEntry& entry : sootModels()) {
     const std::string& name = entry.name;
-    const auto model = readSootModel(deckOf("soot: {pah: [A2, A3, A4], model: " + name + "}"), abf());
+    const auto model = readSootModel(deckOf("particles: {pah: [A2, A3, A4], description: " + name + "}"), abf());
     ASSERT_NE(model, nullptr) << name;
-    const CarriedParticles soot(abf(), readSootModel(deckOf("soot: {model: " + name + "}"), abf()));
+    const CarriedParticles soot(abf(), readSootModel(deckOf("particles: {description: " + name + "}"), abf()));
     EXPECT_EQ(soot.scalars().size(), soot.model().scalars().size());
   }
 }
@@ -100,14 +102,15 @@ TEST(SootDeck, SemiEmpiricalConstantsAreThePublishedOnesUntilSet) {
   const auto optionsOfDeck = [](const std::string& text) {
     return dynamic_cast<const SemiEmpiricalSoot&>(*readSootModel(deckOf(text), abf())).options();
   };
-  const SemiEmpiricalOptions leung = optionsOfDeck("soot: {model: leung}");
+  const SemiEmpiricalOptions leung = optionsOfDeck("particles: {description: leung}");
   EXPECT_EQ(leung.coagulation, 9);
   EXPECT_EQ(leung.ohEfficiency, 0);
   EXPECT_EQ(leung.density, 2000);
   EXPECT_TRUE(leung.growthByRootOfSurface);
-  EXPECT_EQ(optionsOfDeck("soot: {model: moss_brookes}").ohEfficiency, 0.04);
+  EXPECT_EQ(optionsOfDeck("particles: {description: moss_brookes}").ohEfficiency, 0.04);
   const SemiEmpiricalOptions set = optionsOfDeck(
-      "soot: {model: moss_brookes, oh_efficiency: 0.1, semi_empirical: {oxygen: lee, inception_factor: 100 1/s, "
+      "particles: {description: moss_brookes, oh_efficiency: 0.1, semi_empirical: {oxygen: lee, inception_factor: 100 "
+      "1/s, "
       "inception_temperature: 2.0e4 K, nucleus_carbon: 60, growth_factor: 500, growth_surface: root, "
       "coagulation_factor: 3, oxidation_factor: 0.015}}");
   EXPECT_EQ(set.oxygen, SemiEmpiricalOptions::Oxygen::lee);
@@ -123,26 +126,40 @@ TEST(SootDeck, SemiEmpiricalConstantsAreThePublishedOnesUntilSet) {
 
 TEST(SootDeck, MistakesAreNamed) {
   using testing::HasSubstr;
-  EXPECT_THAT(messageOf("soot: {pah: [A22]}"), HasSubstr("A22"));
-  EXPECT_THAT(messageOf("soot: {pah: [CO]}"), HasSubstr("'CO' is not a hydrocarbon"));
-  EXPECT_THAT(messageOf("soot: {pah: [A2, A3, A2]}"), HasSubstr("'A2' is named twice"));
-  EXPECT_THAT(messageOf("soot: {pah: [CH4]}"), HasSubstr("'CH4' (C1H4) is not a polycyclic aromatic hydrocarbon"));
-  EXPECT_THAT(messageOf("soot: {pah: [A2, A1]}"), HasSubstr("'A1' (C6H6) is not a polycyclic"));
-  EXPECT_THAT(messageOf("soot: {pah: []}"), HasSubstr("no soot is ever formed"));
-  EXPECT_THAT(messageOf("soot: {model: hmom, sectional: {sections: 20}}"), HasSubstr("soot.sectional"));
-  EXPECT_THAT(messageOf("soot: {hmom: {fractal_dimension: 1.9}}"), HasSubstr("soot.hmom"));
-  EXPECT_THAT(messageOf("soot: {moments: 5}"), HasSubstr("soot.moments"));
-  EXPECT_THAT(messageOf("soot: {semi_empirical: {oxygen: lee}}"), HasSubstr("soot.semi_empirical"));
-  EXPECT_THAT(messageOf("soot: {model: leung, alpha: 0.5}"), HasSubstr("the model leung does not use this key"));
-  EXPECT_THAT(messageOf("soot: {pah: [A2], sticking: [0.1, 0.2]}"), HasSubstr("2 coefficients for 1 PAH"));
-  EXPECT_THAT(messageOf("soot: {alpha: 0.5, alpha_table: [{temperature: 1500 K, alpha: 0.9}]}"), HasSubstr("either"));
-  EXPECT_THAT(messageOf("soot: {alpha_table: [{temperature: 1500 K, alpha: 1}, {temperature: 1400 K, alpha: 0}]}"),
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: [A22]}"), HasSubstr("A22"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: [CO]}"),
+              HasSubstr("'CO' is not a hydrocarbon"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: [A2, A3, A2]}"),
+              HasSubstr("'A2' is named twice"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: [CH4]}"),
+              HasSubstr("'CH4' (C1H4) is not a polycyclic aromatic hydrocarbon"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: [A2, A1]}"),
+              HasSubstr("'A1' (C6H6) is not a polycyclic"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: []}"), HasSubstr("no soot is ever formed"));
+  EXPECT_THAT(messageOf("particles: {description: hmom, sectional: {sections: 20}}"), HasSubstr("particles.sectional"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, hmom: {fractal_dimension: 1.9}}"),
+              HasSubstr("particles.hmom"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, moments: 5}"), HasSubstr("particles.moments"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, semi_empirical: {oxygen: lee}}"),
+              HasSubstr("particles.semi_empirical"));
+  EXPECT_THAT(messageOf("particles: {description: leung, alpha: 0.5}"),
+              HasSubstr("the model leung does not use this key"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: [A2], sticking: [0.1, 0.2]}"),
+              HasSubstr("2 coefficients for 1 PAH"));
+  EXPECT_THAT(
+      messageOf(
+          "particles: {description: two_equation_dimer, alpha: 0.5, alpha_table: [{temperature: 1500 K, alpha: 0.9}]}"),
+      HasSubstr("either"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, alpha_table: [{temperature: 1500 K, alpha: 1}, "
+                        "{temperature: 1400 K, alpha: 0}]}"),
               HasSubstr("rise"));
-  EXPECT_THAT(messageOf("soot: {pah: []}", mechanismOf("hydrogen_h2o2_10")), HasSubstr("carbon"));
+  EXPECT_THAT(messageOf("particles: {description: two_equation_dimer, pah: []}", mechanismOf("hydrogen_h2o2_10")),
+              HasSubstr("carbon"));
 }
 
 TEST(CarriedParticles, SpeciesBecomeIndicesAndScalarsElements) {
-  CarriedParticles soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A4]}"), abf()));
+  CarriedParticles soot(abf(),
+                        readSootModel(deckOf("particles: {description: two_equation_dimer, pah: [A2, A4]}"), abf()));
   ASSERT_EQ(soot.exchanged().size(), soot.model().gasSpecies().size());
   for (std::size_t i = 0; i < soot.exchanged().size(); ++i)
     EXPECT_EQ(abf().speciesName(soot.exchanged()[i]), soot.model().gasSpecies()[i]);
@@ -153,7 +170,8 @@ TEST(CarriedParticles, SpeciesBecomeIndicesAndScalarsElements) {
 }
 
 TEST(CarriedParticles, ExchangeConservesTheElementsOfTheMechanism) {
-  CarriedParticles soot(abf(), readSootModel(deckOf("soot: {pah: [A2, A3]}"), abf()));
+  CarriedParticles soot(abf(),
+                        readSootModel(deckOf("particles: {description: two_equation_dimer, pah: [A2, A3]}"), abf()));
   const std::size_t n = soot.scalars().size(), m = soot.exchanged().size();
   std::vector<double> concentrations(m), rates(n), exchange(m);
   for (std::size_t i = 0; i < m; ++i) concentrations[i] = 0.01 / static_cast<double>(i + 1);
@@ -176,7 +194,7 @@ TEST(CarriedParticles, ExchangeConservesTheElementsOfTheMechanism) {
 }
 
 TEST(CarriedParticles, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
-  CarriedParticles soot(abf(), readSootModel(deckOf("soot: {}"), abf()));
+  CarriedParticles soot(abf(), readSootModel(deckOf("particles: {description: two_equation_dimer}"), abf()));
   const std::vector<double> densities{1e17, 1.85e-3 - 1e-5, 1e-5};
   EXPECT_NEAR(soot.absorption(1600, densities), 700 * 1e-6 * 1600, 1e-12);
   std::vector<double> h(3), slope(3);
@@ -188,7 +206,8 @@ TEST(CarriedParticles, AbsorbsAndHasTheEnthalpyOfGraphiteAndHydrogen) {
 
 TEST(CarriedParticles, DiffusesUnlessToldNotTo) {
   for (const bool diffusion : {true, false}) {
-    CarriedParticles soot(abf(), readSootModel(deckOf("soot: {}"), abf()), diffusion);
+    CarriedParticles soot(abf(), readSootModel(deckOf("particles: {description: two_equation_dimer}"), abf()),
+                          diffusion);
     const std::vector<double> concentrations(soot.exchanged().size(), 1e-3), densities{1e17, 1.85e-3 - 1e-5, 1e-5};
     std::vector<double> D(3, -1.0);
     soot.diffusivities({1700, 101325, 0.2, 5e-5, 0.028, concentrations}, densities, D);
@@ -197,10 +216,10 @@ TEST(CarriedParticles, DiffusesUnlessToldNotTo) {
 }
 
 TEST(SootDeck, MomentModels) {
-  const auto momic = readSootModel(deckOf("soot: {model: momic, moments: 4}"), abf());
+  const auto momic = readSootModel(deckOf("particles: {description: momic, moments: 4}"), abf());
   EXPECT_EQ(dynamic_cast<const MomicSoot&>(*momic).options().moments, 4U);
   EXPECT_EQ(momic->scalars().size(), 5U);
-  const auto hmom = readSootModel(deckOf("soot: {model: hmom, alpha: 0.2}"), abf());
+  const auto hmom = readSootModel(deckOf("particles: {description: hmom, alpha: 0.2}"), abf());
   EXPECT_EQ(dynamic_cast<const HmomSoot&>(*hmom).options().soot.alpha, 0.2);
 }
 

@@ -15,7 +15,7 @@ mechanism: {running.SOURCE}/cases/mechanisms/ethylene_abf2000_101.yaml
 flame: {{type: burner, length: 10 mm, energy: given}}
 inlet: {{temperature: 400 K, fuel: "C2H4: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 2.3, velocity: 8 cm/s}}
 temperature_profile: {{position: [0 mm, 1 mm, 3 mm, 10 mm], temperature: [400 K, 1400 K, 1700 K, 1600 K]}}
-soot: {{model: sectional, sectional: {{sections: 4, aggregation: spheres}}}}
+particles: {{description: sectional, sectional: {{sections: 4, aggregation: spheres}}}}
 grid: {{slope: 0.4, curve: 0.8}}
 """
 
@@ -29,19 +29,19 @@ def main(executable, *mpiexec):
         result = program("run", deck, "--out", folder / "few")
         assert result.code == 3, f"exit code {result.code}\n{result.out}{result.err}"
         assert "the sections of the soot end too early" in result.err, result.err
-        assert "soot.sectional.sections" in result.err and "soot.sectional.factor" in result.err, result.err
+        assert "particles.sectional.sections" in result.err and "particles.sectional.factor" in result.err, result.err
         record = json.loads((folder / "few/run.json").read_text(encoding="utf-8"))
         assert record["status"] == "failed" and record["results"]["soot_in_last_section"] > 1e-3, record["results"]
 
         result = program("run", deck, "--out", folder / "counted",
-                         *running.settings("soot.sectional.overflow=1", f"initial={folder}/few/results.h5.part"))
+                         *running.settings("particles.sectional.overflow=1", f"initial={folder}/few/results.h5.part"))
         assert result.code == 0, result.err
         record = json.loads((folder / "counted/run.json").read_text(encoding="utf-8"))
         assert record["status"] == "done" and record["results"]["soot_in_last_section"] > 1e-3, record["results"]
         assert "soot in last section" in result.out, result.out
 
         result = program("run", deck, "--out", folder / "enough",
-                         *running.settings("soot.sectional.sections=12", "soot.sectional.factor=16"))
+                         *running.settings("particles.sectional.sections=12", "particles.sectional.factor=16"))
         assert result.code == 0, result.err
     print("ok")
     return 0

@@ -16,8 +16,8 @@ h5py = running.package("h5py")
 
 SCRIPT = running.SOURCE / "scripts/check_soot_rates"
 # Other numbers than the published ones, so that the deck's count.
-VARIANT = ("soot.pah=[A2, A3, A4]", "soot.sticking=[1e-3, 0.015, 0.03]", "soot.site_density=3.5e19 1/m^2",
-           "soot.density=1800 kg/m^3", "soot.van_der_waals=2", "soot.oh_efficiency=0.2")
+VARIANT = ("particles.pah=[A2, A3, A4]", "particles.sticking=[1e-3, 0.015, 0.03]", "particles.site_density=3.5e19 1/m^2",
+           "particles.density=1800 kg/m^3", "particles.van_der_waals=2", "particles.oh_efficiency=0.2")
 
 
 def checked(folder):

@@ -145,7 +145,8 @@ std::string pathsDeck(const std::string& geometry, const std::string& axes, cons
   return "problem: flow\nmechanism: " + test::sourcePath("cases/mechanisms/ethylene_bisetti2012_47.yaml") +
          "\nmesh: {geometry: " + geometry + ", " + axes + more + "}\nboundaries:\n  in: {type: inlet, side: x-min, " +
          "velocity: 2 m/s, " + gas + "}\n  out: {type: outlet, side: x-max, " + gas + "}\n" + sides +
-         "time: {end: 1 us}\ninitial: {layer: none, " + gas + "}\nsoot: {pah: [A2]}\n" +
+         "time: {end: 1 us}\ninitial: {layer: none, " + gas +
+         "}\nparticles: {description: two_equation_dimer, pah: [A2]}\n" +
          "trajectories: {duration: 1 ms, time_step: 50 us, particles: 64, start: [" + start + "]}\n";
 }
 const std::string axesOfPlane = "x: [{to: 6 mm, cells: 6}], y: [{to: 4 mm, cells: 4}]";

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/population_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/reactor/reactor_case.hpp"
@@ -16,8 +17,9 @@ namespace {
 
 TreeRequest requestOf(const std::string& mechanism, const std::string& particles, const std::string& rest = "") {
   const std::string text =
-      "problem: reactor\nmechanism: m.yaml\nreactor: {type: constant_pressure}\ntime: {end: 1 s}\n" + rest +
-      "particles:\n" + particles;
+      "problem: reactor\nmechanism: m.yaml\nreactor: {type: constant_pressure}\ntime: {end: 1 s}\n"
+      "particles:\n  description: trees\n" +
+      rest + particles;
   return readTrees(Deck::parse(text, "deck.yaml", {}, reactorSchema()), shippedMechanism(mechanism));
 }
 
@@ -82,9 +84,9 @@ TEST(TreesDeck, SilicaAsATableIsSilica) {
   }
 }
 
-TEST(TreesDeck, SootTakesItsPhysicsFromTheSectionOfSoot) {
+TEST(TreesDeck, SootHasThePhysicsOfItsModels) {
   const std::string soot =
-      "soot: {pah: [A2, A4], density: 1700 kg/m^3, van_der_waals: 2, slip: air, oxidation: false}\n";
+      "  pah: [A2, A4]\n  density: 1700 kg/m^3\n  van_der_waals: 2\n  slip: air\n  oxidation: false\n";
   const TreeRequest request = requestOf("ethylene_abf2000_101.yaml", "  material: soot\n", soot);
   const TreeOptions& options = request.options;
   const TreeMaterial& m = options.material;
@@ -101,14 +103,28 @@ TEST(TreesDeck, SootTakesItsPhysicsFromTheSectionOfSoot) {
   EXPECT_FALSE(m.sintering.active());
   EXPECT_FALSE(m.soot()->fragmentation.active);
   EXPECT_EQ(m.soot()->fragmentation.factor, 1e5);
-  const SootReactions other =
-      *requestOf("ethylene_abf2000_101.yaml",
-                 "  {material: soot, burnt_primaries: join, keep_hydrogen: false, active_sites: primary,\n"
-                 "   fragmentation: true, fragmentation_factor: 3e4}\n",
-                 soot)
-           .options.material.soot();
+  const SootReactions other = *requestOf("ethylene_abf2000_101.yaml",
+                                         "  burnt_primaries: join\n  keep_hydrogen: false\n  active_sites: primary\n"
+                                         "  fragmentation: true\n  fragmentation_factor: 3e4\n",
+                                         soot)
+                                   .options.material.soot();
   EXPECT_TRUE(!other.breaksUp && !other.keepsHydrogen && other.alphaOfPrimaries && other.fragmentation.active);
   EXPECT_EQ(other.fragmentation.factor, 3e4);
+}
+
+// By volume and surface silica has the law of collisions, the sample and the viscosity of trees.
+TEST(TreesDeck, AnEnsembleOfSilicaIsBySurfaceAndVolume) {
+  const std::string text =
+      "problem: reactor\nmechanism: m.yaml\nreactor: {type: constant_pressure}\ntime: {end: 1 s}\n"
+      "particles: {material: silica, description: ensemble}\n";
+  const Deck deck = Deck::parse(text, "deck.yaml", {}, reactorSchema());
+  EXPECT_TRUE(isOfTrees(deck));
+  const TreeRequest request = readTrees(deck, shippedMechanism("silica_teos_29.yaml"));
+  EXPECT_EQ(request.options.shape, TreeShape::surfaceVolume);
+  EXPECT_EQ(request.options.particles, 8192U);
+  EXPECT_EQ(request.options.splitTolerance, 0.05);
+  EXPECT_EQ(request.options.size, CollisionSize::primaries);
+  EXPECT_EQ(request.viscosity, GasViscosity::air);
 }
 
 TEST(TreesDeck, SilicaKeepsItsOwnDefaults) {
@@ -134,11 +150,10 @@ TEST(PopulationDeck, MakesTheKindThatADeckAsksFor) {
     const std::vector<double> packed = made.pack();
     return ownerOf({packed[packedOwnerAt], packed[packedOwnerAt + 1]});
   };
-  const PopulationRequest trees =
-      requestOfDeck("silica_teos_29.yaml",
-                    "particles: {material: silica, number: 100, initial: {number: 1e15 1/m^3, units: [10, 15, 6]},\n"
-                    "  classes: {primaries: [2, 10]}}\n");
-  EXPECT_EQ(trees.section, "particles");
+  const PopulationRequest trees = requestOfDeck("silica_teos_29.yaml",
+                                                "particles: {material: silica, description: trees, number: 100, "
+                                                "initial: {number: 1e15 1/m^3, units: [10, 15, 6]},\n"
+                                                "  classes: {primaries: [2, 10]}}\n");
   EXPECT_EQ(trees.viscosity, GasViscosity::air);
   EXPECT_TRUE(trees.hasStart);
   ASSERT_EQ(trees.classes.size(), 1U);
@@ -149,8 +164,7 @@ TEST(PopulationDeck, MakesTheKindThatADeckAsksFor) {
   EXPECT_EQ(silica->classedBy()[trees.classes[0].by].name, "primaries");
 
   const PopulationRequest spheres =
-      requestOfDeck("ethylene_abf2000_101.yaml", "soot: {pah: [A2]}\nstochastic: {repeats: 3, number: 50}\n");
-  EXPECT_EQ(spheres.section, "stochastic");
+      requestOfDeck("ethylene_abf2000_101.yaml", "particles: {description: ensemble, repeats: 3, number: 50}\n");
   EXPECT_EQ(spheres.repeats, 3U);
   EXPECT_FALSE(spheres.hasStart);
   const auto soot = spheres.make(5);
@@ -160,17 +174,18 @@ TEST(PopulationDeck, MakesTheKindThatADeckAsksFor) {
 
 // Published: Kobata, Kusakabe, Morooka (1991), of 10 nm at 1500 K.
 TEST(TreesDeck, TitaniaSintersByGrainBoundaryDiffusion) {
-  const SinteringLaw law =
-      requestOf("silica_teos_29.yaml",
-                "  sintering: {mechanism: grain_boundary, prefactor: 7.4e16, activation_temperature: 3.1e4 K, "
-                "critical_diameter: 0 nm}\n")
-          .options.material.sintering;
+  const SinteringLaw law = requestOf("silica_teos_29.yaml",
+                                     "  material: silica\n  sintering: {mechanism: grain_boundary, prefactor: 7.4e16, "
+                                     "activation_temperature: 3.1e4 K, "
+                                     "critical_diameter: 0 nm}\n")
+                               .options.material.sintering;
   EXPECT_NEAR(law.time(1500, 1e-8) / (7.4e16 * 1e-32 * 1500 * std::exp(31000.0 / 1500)), 1, 1e-12);
   for (const auto& [name, power] : {std::pair{"surface_diffusion", 4}, std::pair{"volume_diffusion", 3},
                                     std::pair{"viscous_flow", 1}, std::pair{"constant", 0}}) {
-    const SinteringLaw other = requestOf("silica_teos_29.yaml", std::string("  sintering: {mechanism: ") + name +
-                                                                    ", prefactor: 2, activation_temperature: 0 K}\n")
-                                   .options.material.sintering;
+    const SinteringLaw other =
+        requestOf("silica_teos_29.yaml", std::string("  material: silica\n  sintering: {mechanism: ") + name +
+                                             ", prefactor: 2, activation_temperature: 0 K}\n")
+            .options.material.sintering;
     EXPECT_NEAR(other.time(900, 4e-9) / other.time(900, 2e-9), std::pow(2.0, power), 1e-9) << name;
   }
 }

@@ -82,7 +82,7 @@ TEST(TurbulenceCase, RefusesWhatCannotBe) {
   });
   EXPECT_THAT(swirls, AllOf(HasSubstr("turbulence.model"), HasSubstr("swirls")));
   const std::string particles = test::messageOf<InputError>([&] {
-    (void)readFlowCase(test::flameDeck({"turbulence={model: wray_agarwal}", "stochastic.number=40"}));
+    (void)readFlowCase(test::flameDeck({"turbulence={model: wray_agarwal}", "particles.description=ensemble"}));
   });
   EXPECT_THAT(particles, AllOf(HasSubstr("turbulence.model"), HasSubstr("ensembles in the cells")));
 }

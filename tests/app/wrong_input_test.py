@@ -52,7 +52,7 @@ MISTAKES = [
     Wrong("empty composition", "\"C2H4: 1\"", "\"\"", "composition: \"\"", "boundaries.fuel.composition"),
     Wrong("unknown species in the output", "species: [all]", "species: [OHH]", "OHH", "output.species",
           ("unknown species 'OHH'", "'OH'")),
-    Wrong("unknown PAH", "pah: [A2]", "pah: [A22]", "A22", "soot.pah", ("unknown species 'A22'", "'A2'")),
+    Wrong("unknown PAH", "pah: [A2]", "pah: [A22]", "A22", "particles.pah", ("unknown species 'A22'", "'A2'")),
     Wrong("negative temperature", "299 K", "-5 K", "-5 K", "boundaries.fuel.temperature",
           ("expected a temperature from 100 to 6000 K", "found '-5 K'")),
     Wrong("temperature beyond the gas data", "299 K", "9000 K", "9000 K", "boundaries.fuel.temperature",

@@ -116,7 +116,7 @@ class Damaged:
     def profile(self, folder: pathlib.Path, chance: random.Random) -> tuple:
         (folder / "profile.csv").write_bytes(ROWS)
         what, refused = damage(folder / "profile.csv", chance)
-        changes = {"temperature_profile": {"file": "profile.csv"}, "soot": REMOVE}
+        changes = {"temperature_profile": {"file": "profile.csv"}, "particles": REMOVE}
         return what, self.ran(deck_text.changed(bases.by_name("two_equation_dimer").tree, changes), folder, refused, chance)
 
     def initial(self, folder: pathlib.Path, chance: random.Random) -> tuple:

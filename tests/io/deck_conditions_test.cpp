@@ -156,5 +156,49 @@ TEST(DeckConditions, ASectionMayBeAMapOrAListOfMaps) {
   EXPECT_THAT(json, AllOf(HasSubstr("\"anyOf\""), HasSubstr("\"array\""), Not(HasSubstr("\"[]\""))));
 }
 
+// A condition that one of several keys meets, and defaults that depend on others.
+DeckSchema mixed() {
+  DeckSchema part, made;
+  part.add(integerKey("box.count", "Number.").byDefault("7").byDefault("8", {{"box.kind", {"paths"}}}))
+      .section("box.inner", Presence::defaulted, "Inner.")
+      .add(numberKey("box.inner.width", "Width.").byDefault("1"));
+  made.add(choiceKey("box.kind", {"cells", "paths", "none"}, "Kind.").byDefault("none"))
+      .add(choiceKey("box.of", {"soot", "silica"}, "Of.").byDefault("soot"))
+      .add(part, {"box.kind", {"paths"}, {{"box.of", {"silica"}}}});
+  return made;
+}
+
+Deck readMixed(const std::string& text) {
+  return Deck::parse(text, "deck.yaml", {}, mixed());
+}
+
+TEST(DeckConditions, OneOfSeveralMayHold) {
+  for (const char* text : {"box: {kind: paths, count: 3}", "box: {of: silica, count: 3, inner: {width: 2}}"})
+    EXPECT_EQ(readMixed(text).integer("box.count"), 3) << text;
+  for (const char* key : {"count: 3", "inner: {width: 2}"}) {
+    std::string message;
+    try {
+      (void)readMixed(std::string("box: {kind: cells, ") + key + "}");
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    EXPECT_THAT(message, HasSubstr("'box.kind: cells' does not have this; leave it out, or choose: paths; or 'box.of': "
+                                   "silica"));
+  }
+  EXPECT_THAT(readMixed("box: {kind: cells}").resolved(), Not(HasSubstr("count")));
+  EXPECT_THAT(markdownReference(mixed()), HasSubstr("Only with `box.kind`: `paths` or `box.of`: `silica`."));
+}
+
+TEST(DeckConditions, ADefaultMayDependOnAnotherKey) {
+  EXPECT_EQ(readMixed("box: {kind: paths}").integer("box.count"), 8);
+  EXPECT_EQ(readMixed("box: {kind: paths, count: 2}").integer("box.count"), 2);
+  EXPECT_EQ(readMixed("box: {of: silica}").integer("box.count"), 7);
+  EXPECT_THAT(readMixed("box: {kind: paths}").resolved(), HasSubstr("count: 8"));
+  EXPECT_THAT(markdownReference(mixed()), HasSubstr("| `7`; `8` with `box.kind`: `paths` |"));
+  DeckSchema wrong;
+  wrong.add(integerKey("a", "A.").byDefault("1").byDefault("2", {{"b", {"c"}}}));
+  EXPECT_THROW((void)wrong.tree(), std::logic_error);
+}
+
 }  // namespace
 }  // namespace lampblack::io

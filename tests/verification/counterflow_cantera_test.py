@@ -25,7 +25,7 @@ BOUNDS = {"T, K": (40 / 2303, 0.2e-3), "X C2H2": (0.10, None), "X A1": (0.30, No
 def main(executable: str, mpiexec: list) -> None:
     with tempfile.TemporaryDirectory() as folder:
         results = pathlib.Path(folder) / "run"
-        run = running.Program(executable, mpiexec, 2)("run", CASE / "deck.yaml", "--set", "soot.model=none", "--out",
+        run = running.Program(executable, mpiexec, 2)("run", CASE / "deck.yaml", "--set", "particles.description=none", "--out",
                                                       results, timeout=1500)
         assert run.code == 0, run.err
         compared = json.loads(subprocess.run(

@@ -37,7 +37,7 @@ initial:
   formula: {{X_A2: "2e-5*(1 + tanh((x - 0.004)/0.001))"}}
 time: {{end: 30 ms, maximum_step: 0.1 ms}}
 output: {{interval: 30 ms, species: [A2]}}
-soot: {{pah: [A2], density: 1800 kg/m^3, condensation: false, growth: false, oxidation: false}}
+particles: {{description: two_equation_dimer, pah: [A2], density: 1800 kg/m^3, condensation: false, growth: false, oxidation: false}}
 """
 FIELDS = ("soot_number_density", "soot_volume_fraction")
 SEEDS = 8
@@ -45,11 +45,11 @@ STUDENT = 5.41  # 99.9 % to both sides, of so many repeats
 
 
 def sections(count: int, factor: float) -> tuple:
-    return ("soot.model=sectional", f"soot.sectional={{nucleation: dimer, aggregation: spheres, growth_scheme: limited, sections: {count}, factor: {factor}}}")
+    return ("particles.description=sectional", f"particles.sectional={{nucleation: dimer, aggregation: spheres, growth_scheme: limited, sections: {count}, factor: {factor}}}")
 
 
 def ensembles(seed: int) -> tuple:
-    return (f"seed={seed}", "stochastic={number: 500, averaging_time: 0 s, keep_hydrogen: false}")
+    return (f"seed={seed}", "particles={description: ensemble, number: 500, averaging_time: 0 s, keep_hydrogen: false}")
 
 
 def profiles(program: running.Program, deck: pathlib.Path, options: tuple) -> np.ndarray:

@@ -1,3 +1,4 @@
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/soot_models/soot_models.hpp"
 #include "particles/models/moments/momic_soot.hpp"
@@ -6,12 +7,12 @@ namespace lampblack::app {
 namespace {
 
 void addMomicKeys(DeckSchema& schema) {
-  schema.add(integerKey("soot.moments",
+  schema.add(integerKey("particles.moments",
                         "Number of moments that the model momic carries. With 5 and 6 steady flames may not converge.")
                  .byDefault("4")
                  .atLeast(3)
                  .atMost(6)
-                 .onlyWith("soot.model", {"momic", "none"}));
+                 .onlyWith(ofModels(schema, {"momic"})));
 }
 
 SootModelOptions momicDefaults() {
@@ -21,7 +22,7 @@ SootModelOptions momicDefaults() {
 std::unique_ptr<ParticleModel> readMomic(const Deck& deck, const Mechanism& mechanism) {
   MomicOptions options;
   options.soot = readSootModelOptions(deck, mechanism, momicDefaults());
-  options.moments = deck.integer<std::size_t>("soot.moments");
+  options.moments = deck.integer<std::size_t>("particles.moments");
   return makeSootModel<MomicSoot>(deck, options);
 }
 

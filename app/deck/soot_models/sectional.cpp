@@ -1,4 +1,5 @@
 #include "app/deck/fragmentation_deck.hpp"
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/soot_models/soot_models.hpp"
 #include "particles/models/sectional/sectional_soot.hpp"
@@ -7,12 +8,12 @@ namespace lampblack::app {
 namespace {
 
 void addSectionalKeys(DeckSchema& schema) {
-  const std::string s = "soot.sectional.";
+  const std::string s = "particles.sectional.";
   const auto [breaking, factor] =
-      fragmentationKeys("soot.sectional", "Whether oxidation breaks aggregates into halves.");
+      fragmentationKeys("particles.sectional", "Whether oxidation breaks aggregates into halves.");
   schema
-      .section("soot.sectional", Presence::defaulted, "Constants of the model sectional.",
-               {{"soot.model", {"sectional", "none"}}})
+      .section("particles.sectional", Presence::defaulted, "Constants of the model sectional.",
+               {ofModels(schema, {"sectional"})})
       .add(integerKey(s + "sections", "Number of sections of mass: more of them reach larger particles.")
                .byDefault("35")
                .atLeast(2)
@@ -91,7 +92,7 @@ SootModelOptions sectionalDefaults() {
 std::unique_ptr<ParticleModel> readSectional(const Deck& deck, const Mechanism& mechanism) {
   SectionalSootOptions options;
   options.soot = readSootModelOptions(deck, mechanism, sectionalDefaults());
-  const auto key = [](const char* name) { return std::string("soot.sectional.") + name; };
+  const auto key = [](const char* name) { return std::string("particles.sectional.") + name; };
   options.sections = deck.integer<std::size_t>(key("sections"));
   options.factor = deck.number(key("factor"));
   if (const auto atoms = deck.optionalNumber(key("nucleus_carbon"))) options.nucleusCarbon = *atoms;
@@ -107,7 +108,7 @@ std::unique_ptr<ParticleModel> readSectional(const Deck& deck, const Mechanism& 
   if (deck.choice(key("growth_scheme")) == "limited")
     options.growthScheme = SectionalSootOptions::GrowthScheme::limited;
   if (deck.choice(key("kernel")) == "free_molecular") options.kernel = CollisionKernelType::freeMolecular;
-  options.fragmentation = readFragmentation(deck, "soot.sectional");
+  options.fragmentation = readFragmentation(deck, "particles.sectional");
   options.carbonisation = deck.boolean(key("carbonisation"));
   options.carbonisationRate = deck.quantity(key("carbonisation_rate"));
   options.carbonisationEnergy = deck.quantity(key("carbonisation_energy"));

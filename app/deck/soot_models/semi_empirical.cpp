@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/soot_models/soot_models.hpp"
 #include "particles/models/semi_empirical/semi_empirical_soot.hpp"
@@ -10,11 +11,11 @@ namespace lampblack::app {
 namespace {
 
 void addSemiEmpiricalKeys(DeckSchema& schema) {
-  const std::string s = "soot.semi_empirical.";
+  const std::string s = "particles.semi_empirical.";
   schema
-      .section("soot.semi_empirical", Presence::optional,
+      .section("particles.semi_empirical", Presence::optional,
                "Constants of leung and moss_brookes; each absent one is as published with the model.",
-               {{"soot.model", {"leung", "moss_brookes", "none"}}})
+               {ofModels(schema, {"leung", "moss_brookes"})})
       .add(quantityKey(s + "inception_factor", units::frequency,
                        "Factor A of the rate of inception, A exp(-Ta/T) [C2H2], acetylene per volume and time: bigger "
                        "makes more nuclei.")
@@ -57,12 +58,11 @@ void addSemiEmpiricalKeys(DeckSchema& schema) {
 
 // The semi-empirical models know acetylene only; ensembles beside them read these keys.
 void refuseUnread(const Deck& deck) {
-  if (deck.has("stochastic") || deck.has("trajectories")) return;
+  if (hasPopulation(deck) || deck.has("trajectories")) return;
   for (const char* key : {"sticking", "site_density", "alpha", "alpha_table", "van_der_waals", "condensation"})
-    if (const std::string path = std::string("soot.") + key; deck.isGiven(path))
-      throw deck.error(path,
-                       fmt::format("the model {} does not use this key; leave it out or choose another soot.model",
-                                   deck.choice("soot.model")));
+    if (const std::string path = std::string("particles.") + key; deck.isGiven(path))
+      throw deck.error(path, fmt::format("the model {} does not use this key; leave it out or choose another one",
+                                         carriedModel(deck)));
 }
 
 template <class T>
@@ -74,27 +74,29 @@ std::unique_ptr<ParticleModel> readSemiEmpirical(const Deck& deck, const Mechani
                                                  SemiEmpiricalOptions options) {
   refuseUnread(deck);
   using Oxygen = SemiEmpiricalOptions::Oxygen;
-  const auto number = [&](const char* key) { return deck.optionalNumber(std::string("soot.semi_empirical.") + key); };
+  const auto number = [&](const char* key) {
+    return deck.optionalNumber(std::string("particles.semi_empirical.") + key);
+  };
   const auto quantity = [&](const char* key) {
-    return deck.optionalQuantity(std::string("soot.semi_empirical.") + key);
+    return deck.optionalQuantity(std::string("particles.semi_empirical.") + key);
   };
   options.carbonWeight = readSootWeights(deck, mechanism).carbon;
-  set(options.density, deck.optionalQuantity("soot.density"));
-  set(options.ohEfficiency, deck.optionalNumber("soot.oh_efficiency"));
-  options.inception = deck.boolean("soot.inception");
-  options.growth = deck.boolean("soot.growth");
-  options.oxidation = deck.boolean("soot.oxidation");
-  options.coagulating = deck.boolean("soot.coagulation");
+  set(options.density, deck.optionalQuantity("particles.density"));
+  set(options.ohEfficiency, deck.optionalNumber("particles.oh_efficiency"));
+  options.inception = deck.boolean("particles.inception");
+  options.growth = deck.boolean("particles.growth");
+  options.oxidation = deck.boolean("particles.oxidation");
+  options.coagulating = deck.boolean("particles.coagulation");
   set(options.inceptionFactor, quantity("inception_factor"));
   set(options.inceptionTemperature, quantity("inception_temperature"));
   set(options.nucleusCarbon, number("nucleus_carbon"));
   set(options.growthFactor, number("growth_factor"));
   set(options.growthTemperature, quantity("growth_temperature"));
-  if (const auto surface = deck.optionalString("soot.semi_empirical.growth_surface"))
+  if (const auto surface = deck.optionalString("particles.semi_empirical.growth_surface"))
     options.growthByRootOfSurface = *surface == "root";
   set(options.coagulation, number("coagulation_factor"));
   set(options.oxidationFactor, number("oxidation_factor"));
-  if (const auto oxygen = deck.optionalString("soot.semi_empirical.oxygen"))
+  if (const auto oxygen = deck.optionalString("particles.semi_empirical.oxygen"))
     options.oxygen = *oxygen == "leung"   ? Oxygen::leung
                      : *oxygen == "lee"   ? Oxygen::lee
                      : *oxygen == "nagle" ? Oxygen::nagle

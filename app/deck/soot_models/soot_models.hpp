@@ -14,7 +14,7 @@
 namespace lampblack::app {
 
 struct SootModelEntry {
-  std::string name;              // as in `soot.model`
+  std::string name;              // as in `particles.description`
   std::string description;       // what it carries, who published it
   void (*addKeys)(DeckSchema&);  // those of this model alone; null where it has none, or where an earlier row has them
   SootModelOptions (*defaults)();  // of what the section says of PAH, surface and switches

@@ -22,7 +22,7 @@ RATES = [  # name of the process, label, sign
 
 
 def soot_density(flat):
-    return flat.get("soot.density", DENSITIES.get(flat.get("soot.model"), 1850.0))
+    return flat.get("particles.density", DENSITIES.get(flat.get("particles.carried", flat.get("particles.description")), 1850.0))
 
 
 def plot_series(series, pictures):
@@ -57,7 +57,7 @@ def plot_series(series, pictures):
     panels([(f"volume fraction{', ' + unit if unit else ''}", fractions)], "volume_fraction", 1, span)
     species = ["C2H2", "OH", "A1"]
     for run in series.runs:
-        species += [name for name in run["flat"].get("soot.pah", []) if name not in species]
+        species += [name for name in run["flat"].get("particles.pah", []) if name not in species]
     gas = [("temperature, K", [flame.fields["temperature"] for flame in flames])]
     gas += [(f"mole fraction of {name}", [flame.X[name] for flame in flames]) for name in species
             if all(name in flame.X for flame in flames)]
