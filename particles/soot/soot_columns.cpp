@@ -66,6 +66,95 @@ SootSums sums(const SootColumns& all, const SootAggregate& type, const SootMediu
   return s;
 }
 
+constexpr std::size_t movedParts = 6;
+constexpr double SootTransfer::*partsMoved[movedParts] = {&SootTransfer::dimers,      &SootTransfer::growth,
+                                                          &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
+                                                          &SootTransfer::hydrogenO2,  &SootTransfer::hydrogenOH};
+
+// Particles of a block that a step takes too far, in as many shorter ones as each of them needs: those that are not
+// through yet stand side by side and go on together. As SootMedium::grow of each.
+template <SootShape Shape>
+class StepsInTurn {
+ public:
+  StepsInTurn(const SootGrowth& law, const SootAggregate& type) : law_(law), type_(type) {}
+
+  void add(std::size_t place, double carbon, double hydrogen, double primaries, double dt) {
+    place_[count_] = place;
+    before_[count_] = carbon_[count_] = carbon;
+    hydrogen_[count_] = hydrogen;
+    primaries_[count_] = primaries;
+    rest_[count_] = dt;
+    for (auto& part : moved_) part[count_] = 0;
+    ++count_;
+  }
+  // f(place, carbon, hydrogen, primaries, lost, moved): what is left of each of them, and what it took and lost.
+  template <class F>
+  void take(F f) {
+    while (count_ > 0) {
+      step();
+      settle(f);
+    }
+  }
+
+ private:
+  void step() {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if constexpr (Shape == SootShape::spheres) {
+        shape_[i] = {primaries_[i], 1, normalCubeRoot(type_.perVolume() * (carbon_[i] + hydrogen_[i]))};
+      } else {
+        shape_[i] = growingShape(law_, type_, carbon_[i] + hydrogen_[i], primaries_[i], rest_[i]);
+      }
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      const auto [primaries, factor, d] = shape_[i];
+      const SootGrowth::Step s = law_.step(carbon_[i], hydrogen_[i], primaries, factor, d, rest_[i]);
+      if constexpr (Shape == SootShape::surfaceVolume)
+        primaries_[i] = primariesAfter(primaries_[i], carbon_[i] + hydrogen_[i], law_.gained(s), law_.lost(s));
+      carbon_[i] = s.carbon;
+      hydrogen_[i] = s.hydrogen;
+      moved_[0][i] += s.dimers;
+      moved_[1][i] += s.growth;
+      moved_[2][i] += s.oxidationO2;
+      moved_[3][i] += s.oxidationOH;
+      moved_[4][i] += s.hydrogenO2;
+      moved_[5][i] += s.hydrogenOH;
+      rest_[i] = s.length < rest_[i] ? rest_[i] - s.length : 0;
+    }
+  }
+  // Those that are through, or burnt, go; the others move together.
+  template <class F>
+  void settle(const F& f) {
+    const double share = law_.shareO2();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const bool isLost = carbon_[i] < before_[i] && carbon_[i] < law_.leastCarbon();
+      if (!isLost && rest_[i] > 0) {
+        for (double* column : {before_, carbon_, hydrogen_, primaries_, rest_}) column[kept] = column[i];
+        for (auto& part : moved_) part[kept] = part[i];
+        place_[kept++] = place_[i];
+        continue;
+      }
+      double took[movedParts];
+      for (std::size_t k = 0; k < movedParts; ++k) took[k] = moved_[k][i];
+      if (isLost) {  // as a whole
+        took[2] += share * carbon_[i];
+        took[3] += (1 - share) * carbon_[i];
+        took[4] += share * hydrogen_[i];
+        took[5] += (1 - share) * hydrogen_[i];
+      }
+      f(place_[i], isLost ? 0 : carbon_[i], isLost ? 0 : hydrogen_[i], primaries_[i], isLost ? 1.0 : 0.0, took);
+    }
+    count_ = kept;
+  }
+
+  SootGrowth law_;
+  SootAggregate type_;
+  std::size_t count_ = 0;
+  std::size_t place_[block];
+  Block before_, carbon_, hydrogen_, primaries_, rest_, moved_[movedParts];
+  GrowingShape shape_[block];
+};
+
 template <SootShape Shape>
 SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium& medium, const SootFluxes& fluxes,
                   double dt) {
@@ -77,7 +166,7 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
     double *c = &all.carbon[first], *h = &all.hydrogen[first], *diameter = &all.diameter[first];
     double* primaries = &all.primaries[first];
     const double* w = &all.weight[first];
-    Block carbon, hydrogen, d, shape, rest, lost, after, moved[6];
+    Block carbon, hydrogen, d, shape, rest, lost, after, moved[movedParts];
     if (changesPrimaries) {
       for (std::size_t i = 0; i < n; ++i) {
         const GrowingShape middle = growingShape(law, type, c[i] + h[i], primaries[i], dt);
@@ -95,7 +184,7 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
           law.step(c[i], h[i], changesPrimaries ? after[i] : primaries[i], areSpheres ? 1 : shape[i], before, dt);
       if (changesPrimaries) after[i] = primariesAfter(primaries[i], c[i] + h[i], law.gained(s), law.lost(s));
       // What is too small to go on burning goes as a whole.
-      const bool gone = s.carbon < c[i] && s.carbon < least;
+      const bool gone = s.carbon < std::min(c[i], least);
       const double C = gone ? s.carbon : 0, H = gone ? s.hydrogen : 0;
       rest[i] = s.length < dt ? 1 : 0;
       lost[i] = gone ? w[i] : 0;
@@ -108,24 +197,19 @@ SootTransfer grow(SootColumns& all, const SootAggregate& type, const SootMedium&
       moved[4][i] = w[i] * (s.hydrogenO2 + share * H);
       moved[5][i] = w[i] * (s.hydrogenOH + (1 - share) * H);
     }
-    constexpr double SootTransfer::*parts[6] = {&SootTransfer::dimers,      &SootTransfer::growth,
-                                                &SootTransfer::oxidationO2, &SootTransfer::oxidationOH,
-                                                &SootTransfer::hydrogenO2,  &SootTransfer::hydrogenOH};
     if (numerics::sumOf(rest, n) > 0) {
-      // More than one step: one by one.
-      for (std::size_t i = 0; i < n; ++i) {
-        if (rest[i] == 0) continue;
-        SootAggregate::Particle p{c[i], h[i], primaries[i], diameter[i]};
-        SootTransfer one;
-        const bool left = medium.grow(type, fluxes, dt, p, one);
-        carbon[i] = left ? p.carbon : 0;
-        hydrogen[i] = left ? p.hydrogen : 0;
-        if (changesPrimaries) after[i] = p.primaries;
-        lost[i] = w[i] * one.lost;
-        for (std::size_t k = 0; k < 6; ++k) moved[k][i] = w[i] * (one.*parts[k]);
-      }
+      StepsInTurn<Shape> more(law, type);
+      for (std::size_t i = 0; i < n; ++i)
+        if (rest[i] != 0) more.add(i, c[i], h[i], primaries[i], dt);
+      more.take([&](std::size_t i, double C, double H, double count, double isLost, const double* took) {
+        carbon[i] = C;
+        hydrogen[i] = H;
+        if (changesPrimaries) after[i] = count;
+        lost[i] = w[i] * isLost;
+        for (std::size_t k = 0; k < movedParts; ++k) moved[k][i] = w[i] * took[k];
+      });
     }
-    for (std::size_t k = 0; k < 6; ++k) sum.*parts[k] += numerics::sumOf(moved[k], n);
+    for (std::size_t k = 0; k < movedParts; ++k) sum.*partsMoved[k] += numerics::sumOf(moved[k], n);
     sum.lost += numerics::sumOf(lost, n);
     if (changesPrimaries)
       for (std::size_t i = 0; i < n; ++i) {
