@@ -36,6 +36,7 @@ EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options
       diffusivity_(options_.diffusion ? static_cast<std::size_t>(context.mesh.cells) * nodes : 0),
       isFound_(static_cast<std::size_t>(context.mesh.cells)),
       contents_(static_cast<std::size_t>(context.mesh.owned)),
+      lanes_(std::make_unique<SideLanes>()),
       facesInOrder_(context.mesh.faceOfCell),
       comingThrough_(2 * static_cast<std::size_t>(context.mesh.interiorFaces), Chain{-1, -1}) {
   for (std::size_t node = 0; node < nodes; ++node) {
@@ -50,10 +51,6 @@ EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options
 }
 
 EnsembleTransport::~EnsembleTransport() = default;
-
-int EnsembleTransport::classOf(double volume) {
-  return std::clamp((exponentOf(volume) - smallest) / 3, 0, classes - 1);
-}
 
 double EnsembleTransport::massOf(const Gas& gas, int cell, double part) const {
   const double start = gas.state.start.density[cell], end = gas.state.density[cell];

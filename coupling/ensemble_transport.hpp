@@ -24,6 +24,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -85,6 +86,9 @@ class EnsembleTransport {
   // Of the tables of diffusivities, a factor of two in volume each: up to 1.9 um, beyond which D d^2 stays as it is.
   static constexpr std::size_t nodes = 37;
   struct Side;
+  struct SideLanes;
+  struct Size;
+  struct Stock;
   struct Leaving;
   struct Content;
   struct Draw;
@@ -99,11 +103,13 @@ class EnsembleTransport {
   // Whether particles diffuse through a face.
   [[nodiscard]] bool diffuses(int face) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
-  int sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const;
+  [[nodiscard]] static Size sizeOf(double volume, double d, double primaries);
+  [[nodiscard]] double sumChances(const Size& size, const std::vector<Side>& sides, std::span<double> upTo) const;
   void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const;
   void drawLeaving(int cell, const std::vector<Side>& sides, RandomStream& random, Rows& population, Rows& arrived);
   void drawPieces(Draw& draw, double* row);
-  void drawHits(Draw& draw, double* row, std::span<const Hit> hits);
+  void measureHits(const Rows& population, const Rows& arrived);
+  void drawHits(Draw& draw, double* row, const Size& size, std::span<const Hit> hits);
   void leave(Draw& draw, double* row, std::span<const double> pieces, double of);
   void removeGone(Rows& rows, std::size_t head) const;
   void send(std::vector<Rows>& arrived);
@@ -122,10 +128,12 @@ class EnsembleTransport {
     int ofClass;
   };
   std::array<Node, nodes> nodes_{};
-  std::vector<Content> contents_;      // of the owned cells, in this half of the step
-  std::vector<std::uint32_t> order_;   // of all of them: places of particles by size (Content)
-  std::vector<std::uint32_t> nodeOf_;  // of a cell's particles
+  std::vector<Content> contents_;     // of the owned cells, in this half of the step
+  std::vector<std::uint32_t> order_;  // of all of them: places of particles by size (Content)
+  std::vector<Stock> stock_;          // of a cell's particles
   std::vector<Hit> hits_;
+  std::vector<double> volumes_, diameters_;  // of those hit
+  std::unique_ptr<SideLanes> lanes_;
   std::vector<Leaving> leaving_;
   std::vector<int> facesInOrder_;  // of each owned cell, as Mesh::faceOfCell, by their permanent numbers
   struct Chain {

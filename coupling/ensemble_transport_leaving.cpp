@@ -35,69 +35,61 @@ void EnsembleTransport::takeStock(int cell, std::span<const double> population, 
   content.before = arrived.size();
   content.lightest = std::numeric_limits<double>::infinity();
   const std::array<std::span<const double>, 2> both{population, arrived};
-  nodeOf_.clear();
+  stock_.clear();
   for (const std::span<const double> rows : both)
     options_.rows.forEach(rows, [&](const double* row) {
       const double mass = massAt(row), number = row[packedNumberAt], volume = mass / options_.type.density();
       content.lightest = std::min(content.lightest, mass);
       content.add(classOf(volume), number, 1);
       const int node = exponentOf(volume) - smallest;
-      nodeOf_.push_back(node >= 0 && node < static_cast<int>(nodes) ? static_cast<std::uint32_t>(node) : singles);
+      stock_.push_back(
+          {number, node >= 0 && node < static_cast<int>(nodes) ? static_cast<std::uint32_t>(node) : singles, 1});
     });
   // Pieces of a particle are places one after the other.
   const double whole = content.whole();
-  const auto piecesOf = [&](const double* row, std::uint32_t node) {
-    return node == singles ? 1U : static_cast<std::uint32_t>(piecesIn(row[packedNumberAt], whole));
-  };
-  std::size_t k = 0;
-  for (const std::span<const double> rows : both)
-    options_.rows.forEach(rows, [&](const double* row) {
-      const std::uint32_t node = nodeOf_[k++];
-      content.upTo[node] += piecesOf(row, node);
-    });
+  for (Stock& one : stock_) {
+    if (one.number > whole && one.node != singles) one.pieces = static_cast<std::uint32_t>(piecesIn(one.number, whole));
+    content.upTo[one.node] += one.pieces;
+  }
   std::array<std::uint32_t, nodes + 1> next{};
   for (std::size_t node = 1; node < next.size(); ++node) next[node] = content.upTo[node] += content.upTo[node - 1];
   for (std::size_t node = next.size() - 1; node > 0; --node) next[node] = next[node - 1];
   next[0] = 0;
   order_.resize(content.order + content.upTo.back());
-  k = 0;
+  std::size_t k = 0;
   for (std::size_t of = 0; of < both.size(); ++of) {
     const std::span<const double> rows = both[of];
     options_.rows.forEach(rows, [&](const double* row) {
-      const std::uint32_t node = nodeOf_[k++];
+      const Stock& one = stock_[k++];
       const std::size_t at = static_cast<std::size_t>(row - rows.data()) + (of == 0 ? options_.rows.head : 0);
-      for (std::uint32_t pieces = piecesOf(row, node); pieces > 0; --pieces)
-        order_[content.order + next[node]++] = Content::placeOf(at, of == 1);
+      for (std::uint32_t pieces = one.pieces; pieces > 0; --pieces)
+        order_[content.order + next[one.node]++] = Content::placeOf(at, of == 1);
     });
   }
 }
 
-// Of a particle: the sums of its probabilities to leave through the sides up to each of them. Returns its class of
-// size.
-int EnsembleTransport::sumChances(const double* row, const std::vector<Side>& sides, std::span<double> upTo) const {
-  const double volume = massAt(row) / options_.type.density(), primaries = row[2];
-  const int k = classOf(volume);
-  double d = sphereDiameter(volume), ofMobility = volume;
+// What the chances to leave of a particle depend on, `d` being the diameter (m) of the sphere of its volume (m3).
+EnsembleTransport::Size EnsembleTransport::sizeOf(double volume, double d, double primaries) {
+  Size size{classOf(volume), {}, 0.0};
+  double ofMobility = volume;
   if (primaries > 1.0) {
     d *= SootAggregate::mobilityFactor(primaries) / std::cbrt(primaries);
     ofMobility = constants::pi / 6.0 * d * d * d;
   }
-  const Between at = between(ofMobility, smallest, nodes);
-  const double perSquare = 1.0 / (d * d);
+  size.at = between(ofMobility, smallest, nodes);
+  size.perSquare = 1.0 / (d * d);
+  return size;
+}
+
+// The sums of its probabilities to leave through the sides up to each of them; returns that of all.
+double EnsembleTransport::sumChances(const Size& size, const std::vector<Side>& sides, std::span<double> upTo) const {
+  numerics::storeLanes(upTo.data(), lanes_->chances(size));
+  if (lanes_->hasWall)
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      if (sides[s].isWall) upTo[s] = sides[s].toWall(size.ofClass, size.at, size.perSquare);
   double sum = 0.0;
-  for (std::size_t s = 0; s < sides.size(); ++s) {
-    const Side& side = sides[s];
-    if (side.isWall) {
-      sum += side.toWall(k, at, perSquare);
-    } else {
-      sum += side.convected[k];
-      if (side.diffuses)
-        sum += side.diffused[k] * perSquare *
-               (side.diffusion[at.node] + at.part * (side.diffusion[at.node + 1] - side.diffusion[at.node]));
-    }
-    upTo[s] = sum;
-  }
-  return k;
+  for (std::size_t s = 0; s < sides.size(); ++s) upTo[s] = sum += upTo[s];
+  return sum;
 }
 
 // Of spheres between a node and the next, and of aggregates of that volume, which diffuse less: no sum of chances to
@@ -135,6 +127,7 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
   if (sides.empty()) return;
   Content& content = contents_[cell];
   Draw draw{cell, sides, content, {}, {}, content.whole(), random.uniform()};
+  lanes_->set(sides);
   for (const Side& side : sides)
     for (std::size_t k = 0; k < draw.isLimited.size(); ++k) draw.isLimited[k] = draw.isLimited[k] || side.isLimited[k];
   for (std::size_t k = 0; k < draw.isLimited.size(); ++k)
@@ -158,10 +151,12 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
     tooth -= length;
     first = last;
   }
+  measureHits(population, arrived);
   for (std::size_t hit = 0, next = 0; hit < hits_.size(); hit = next) {
     const std::uint32_t place = order_[hits_[hit].entry];
     while (next < hits_.size() && order_[hits_[next].entry] == place) ++next;
-    drawHits(draw, rowAt(place), std::span(hits_).subspan(hit, next - hit));
+    double* row = rowAt(place);
+    drawHits(draw, row, sizeOf(volumes_[hit], diameters_[hit], row[2]), std::span(hits_).subspan(hit, next - hit));
   }
   for (; first < content.order + content.upTo[nodes]; ++first)
     if (double* row = rowAt(order_[first]); row[packedNumberAt] > 0.0) drawPieces(draw, row);
@@ -169,12 +164,23 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
     if (arrived[i + packedNumberAt] > 0.0) drawPieces(draw, &arrived[i]);
 }
 
+// Of those that are hit: volumes, and the diameters of spheres of these (nodes have no others than normal numbers).
+void EnsembleTransport::measureHits(const Rows& population, const Rows& arrived) {
+  const double density = options_.type.density();
+  volumes_.resize(hits_.size());
+  diameters_.resize(hits_.size());
+  for (std::size_t k = 0; k < hits_.size(); ++k) {
+    const std::uint32_t place = order_[hits_[k].entry];
+    volumes_[k] = massAt(&((place & 1U) != 0 ? arrived : population)[place >> 1U]) / density;
+  }
+  for (std::size_t k = 0; k < hits_.size(); ++k) diameters_[k] = normalCubeRoot(6 * volumes_[k] / constants::pi);
+}
+
 // Of a particle of which these pieces are looked at, each with the probability of its hit.
-void EnsembleTransport::drawHits(Draw& draw, double* row, std::span<const Hit> hits) {
-  std::array<double, Mesh::mostSides> upTo{}, leaving{};
-  const int k = sumChances(row, draw.sides, upTo);
-  const double sum = upTo[draw.sides.size() - 1];
-  if (sum > 1.0 && !draw.isLimited[k]) ++limited_;
+void EnsembleTransport::drawHits(Draw& draw, double* row, const Size& size, std::span<const Hit> hits) {
+  std::array<double, numerics::laneCount> upTo, leaving{};
+  const double sum = sumChances(size, draw.sides, upTo);
+  if (sum > 1.0 && !draw.isLimited[size.ofClass]) ++limited_;
   std::uint32_t gone = 0;
   for (const Hit& hit : hits) {
     nextEvenPoint(draw.point);
@@ -206,11 +212,11 @@ void EnsembleTransport::drawPieces(Draw& draw, double* row) {
       return;
     }
   }
-  std::array<double, Mesh::mostSides> upTo{};
-  const int k = sumChances(row, draw.sides, upTo);
-  const double sum = upTo[draw.sides.size() - 1];
-  if (sum > 1.0 && !draw.isLimited[k]) ++limited_;
-  std::array<double, Mesh::mostSides> leaving{};
+  std::array<double, numerics::laneCount> upTo, leaving{};
+  const double volume = massAt(row) / options_.type.density();
+  const Size size = sizeOf(volume, sphereDiameter(volume), row[2]);
+  const double sum = sumChances(size, draw.sides, upTo);
+  if (sum > 1.0 && !draw.isLimited[size.ofClass]) ++limited_;
   bool isLeaving = false;
   for (int piece = 0; piece < static_cast<int>(pieces); ++piece) {
     nextEvenPoint(draw.point);
@@ -248,6 +254,16 @@ void EnsembleTransport::leave(Draw& draw, double* row, std::span<const double> p
 void EnsembleTransport::removeGone(Rows& rows, std::size_t head) const {
   if (rows.size() <= head) return;
   std::size_t kept = head, next = head;
+  if (!options_.rows.haveLengths) {  // without a branch
+    for (std::size_t i = head; i < rows.size(); i += packedParticle) {
+      std::array<double, packedParticle> row;
+      std::copy_n(&rows[i], packedParticle, row.data());
+      std::ranges::copy(row, &rows[kept]);
+      kept += row[packedNumberAt] > 0.0 ? packedParticle : 0;
+    }
+    rows.resize(kept);
+    return;
+  }
   for (std::size_t i = head; i < rows.size(); i = next) {
     const std::size_t length = options_.rows.lengthOf(&rows[i]);
     next = i + length;

@@ -10,6 +10,7 @@
 #include "core/modules.hpp"
 #include "coupling/ensemble_transport.hpp"
 #include "flow/boundaries/wall_flux.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::coupling {
 
@@ -31,6 +32,17 @@ struct Between {
   constexpr std::uint64_t one = 1023ULL << 52U, digits = (1ULL << 52U) - 1U;
   const double scaled = std::bit_cast<double>((std::bit_cast<std::uint64_t>(volume) & digits) | one);
   return {static_cast<std::size_t>(node), scaled - 1.0};
+}
+
+// What the chances to leave of a particle depend on.
+struct EnsembleTransport::Size {
+  int ofClass;
+  Between at;        // of its volume of mobility
+  double perSquare;  // of its diameter of mobility, 1/m2
+};
+
+inline int EnsembleTransport::classOf(double volume) {
+  return std::clamp((exponentOf(volume) - smallest) / 3, 0, classes - 1);
 }
 
 // One of a cell's faces, as its particles see it, in one part of a step.
@@ -56,6 +68,29 @@ struct EnsembleTransport::Side {
     const double through =
         diffuses ? perSquare * std::max(diffusion[node], diffusion[std::min(node + 1, nodes - 1)]) : 0.0;
     return takenByWall(drift, through) + std::max(convected[k], 0.0);
+  }
+};
+
+// The sides of a cell beside one another in vector lanes: those that are no walls.
+struct EnsembleTransport::SideLanes {
+  std::array<numerics::Lanes, classes> convected, diffused;
+  std::array<numerics::Lanes, nodes> diffusion;
+  bool hasWall = false;
+
+  void set(const std::vector<Side>& sides) {
+    static_assert(Mesh::mostSides <= numerics::laneCount);
+    hasWall = std::ranges::any_of(sides, &Side::isWall);
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+      const Side& side = sides[s];
+      for (std::size_t k = 0; k < classes; ++k) convected[k][s] = side.convected[k];
+      for (std::size_t k = 0; k < classes; ++k) diffused[k][s] = side.diffuses ? side.diffused[k] : 0.0;
+      for (std::size_t node = 0; node < nodes; ++node) diffusion[node][s] = side.diffusion[node];
+    }
+  }
+  // The probability to leave through each of them.
+  [[nodiscard]] numerics::Lanes chances(const Size& size) const {
+    const numerics::Lanes low = diffusion[size.at.node], high = diffusion[size.at.node + 1];
+    return convected[size.ofClass] + diffused[size.ofClass] * size.perSquare * (low + size.at.part * (high - low));
   }
 };
 
@@ -88,6 +123,12 @@ struct EnsembleTransport::Content {
     counts[ofClass] += change;
     if (counts[ofClass] == 0) numbers[ofClass] = 0.0;
   }
+};
+
+// A particle of a cell as its order is made.
+struct EnsembleTransport::Stock {
+  double number;  // 1/m3
+  std::uint32_t node, pieces;
 };
 
 struct EnsembleTransport::Hit {
