@@ -47,7 +47,10 @@ class PairMethod {
   }
   void setKernel(const CollisionKernelOptions& kernel) { population_.setKernel(kernel); }
   void rebuild() {}
-  void mergeExcess() { counters_.merges += merging_.makeRoom(capacity_, population_); }
+  void mergeExcess() {
+    population_.forgetTerms();
+    counters_.merges += merging_.makeRoom(capacity_, population_);
+  }
   void dilute(double factor) { population_.scaleWeights(factor); }
 
   // f(Particle&, weight) -> bool changes a particle, false drops it. The heaviest are halved to make up for these.

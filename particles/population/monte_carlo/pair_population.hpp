@@ -53,10 +53,12 @@ class PairPopulation {
   // Another kernel for the particles that there are.
   void setKernel(const CollisionKernelOptions& kernel) {
     kernel_.emplace(kernel);
-    known_ = 0;
+    forgetTerms();
   }
   // Gives all rows their terms.
   void findTerms();
+  // Before many rows change with no pair to be asked for in between.
+  void forgetTerms() { known_ = 0; }
   void clear() {
     rows_.clear();
     particles_.clear();
