@@ -106,8 +106,9 @@ std::vector<double> StochasticProcess<Method>::pack() const {
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(counters().*counter.value));  // below 2^53
   packDoubles(state, method_.memory());
+  double* row = addRow(state, packedParticle * size()).data();
   method_.forEachParticle([&](const Particle& p, double w) {
-    packDoubles(state, GivenParticle{p.carbon, p.hydrogen, p.primaries, w});
+    for (const double value : {p.carbon, p.hydrogen, p.primaries, w}) *row++ = value;
   });
   return state;
 }

@@ -57,10 +57,13 @@ void packSums(const Tree& tree, double number, const TreeMaterial& material, std
 
 void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
   packSums(tree, number, material, to);
-  for (const TreePrimary& primary : tree.primaries()) packDoubles(to, primary.units);
+  const std::size_t before = valuesOf<GivenParticle> + valuesOf<Sums>;
+  double* place = addRow(to, lengthOfRow(tree.count()) - before).data();
+  for (const TreePrimary& primary : tree.primaries()) place = std::ranges::copy(primary.units, place).out;
   for (const TreeNeck& n : tree.necks())
-    packDoubles(to, Neck{n.common, static_cast<double>(n.left), static_cast<double>(n.right),
-                         static_cast<double>(n.first), static_cast<double>(n.last)});
+    for (const double value : {n.common, static_cast<double>(n.left), static_cast<double>(n.right),
+                               static_cast<double>(n.first), static_cast<double>(n.last)})
+      *place++ = value;
 }
 
 Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial& material) {

@@ -1,5 +1,7 @@
 // Two primaries become one.
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include "particles/trees/tree_sintering.hpp"
 
@@ -26,39 +28,46 @@ void fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
   std::rotate(necks + first, necks + k, necks + k + before);
   --tree.count;
 
-  const auto place = [&](std::uint32_t i) {  // of a primary, b being a
-    if (i == b) i = a;
-    if (i < first) return i;
-    if (i <= middle) return i + before;
-    if (i < b) return i - (middle + 1) + first;
-    return i - 1;
+  // Without branches, as a tree may have thousands of necks.
+  const std::uint32_t back = middle + 1 - first;  // by how much the right part before b comes forward
+  const auto place = [=](std::uint32_t i) {       // of a primary, b being a
+    i = i == b ? a : i;
+    std::uint32_t to = i - 1;
+    to = i < b ? i - back : to;
+    to = i <= middle ? i + before : to;
+    return i < first ? i : to;
   };
-  for (std::uint32_t n = 0; n + 1 < tree.count; ++n) {
-    TreeNeck& neck = necks[n];
-    const bool touches = neck.left == a || neck.left == b || neck.right == a || neck.right == b;
-    neck.left = place(neck.left);
-    neck.right = place(neck.right);
+  const auto renumber = [&](TreeNeck& neck) {  // whether the neck was one of the two primaries'
+    const std::uint32_t begin = neck.first, end = neck.last, left = neck.left, right = neck.right;
+    neck.left = place(left);
+    neck.right = place(right);
     // Ranges: of the left part as its primaries; of the right part, b stands for the whole left part; around both.
-    const bool ofLeft = neck.first >= first && neck.last <= middle;
-    const bool ofRight = neck.first > middle && neck.last <= last;
-    if (ofLeft) {
-      neck.first += before;
-      neck.last += before;
-    } else if (ofRight) {
-      neck.first = neck.first <= b ? neck.first - (middle + 1) + first : neck.first - 1;
-      neck.last = neck.last < b ? neck.last - (middle + 1) + first : neck.last - 1;
-    } else {
-      if (neck.first > last) --neck.first;
-      if (neck.last >= last) --neck.last;
+    const bool ofLeft = (begin >= first) & (end <= middle), ofRight = (begin > middle) & (end <= last);
+    std::uint32_t newBegin = begin > last ? begin - 1 : begin, newEnd = end >= last ? end - 1 : end;
+    newBegin = ofRight ? (begin <= b ? begin - back : begin - 1) : newBegin;
+    newEnd = ofRight ? (end < b ? end - back : end - 1) : newEnd;
+    neck.first = ofLeft ? begin + before : newBegin;
+    neck.last = ofLeft ? end + before : newEnd;
+    return (left == a) | (left == b) | (right == a) | (right == b);
+  };
+  const auto join = [&](TreeNeck& neck) {
+    const double level = sinteringLevel(neck);
+    neck.sphere = sphereOfNeck(primaries, neck);
+    neck.common = commonSurface(neck.sphere, level);
+    // Of a small primary and one that has grown the level in point contact is above that of equals.
+    const bool isBurnt = !(primaries[neck.left].diameter > 0 && primaries[neck.right].diameter > 0);
+    if (!isBurnt) neck.common = std::min(neck.common, touchingSurface(primaries, neck));
+  };
+  constexpr std::uint32_t together = 256;
+  std::array<std::uint32_t, together> touched;
+  for (std::uint32_t start = 0; start + 1 < tree.count; start += together) {
+    std::size_t count = 0;
+    const std::uint32_t stop = std::min(start + together, tree.count - 1);
+    for (std::uint32_t n = start; n < stop; ++n) {
+      touched[count] = n;
+      count += renumber(necks[n]) ? 1 : 0;
     }
-    if (touches) {
-      const double level = sinteringLevel(neck);
-      neck.sphere = sphereOfNeck(primaries, neck);
-      neck.common = commonSurface(neck.sphere, level);
-      // Of a small primary and one that has grown the level in point contact is above that of equals.
-      const bool isBurnt = !(primaries[neck.left].diameter > 0 && primaries[neck.right].diameter > 0);
-      if (!isBurnt) neck.common = std::min(neck.common, touchingSurface(primaries, neck));
-    }
+    for (std::size_t t = 0; t < count; ++t) join(necks[touched[t]]);
   }
 }
 

@@ -160,7 +160,7 @@ void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& s
     sintering_.advanceLazily(tree, sintered);
     if (!reactions.isActive()) return true;
     const TreeFate fate = reactions.grow(tree, random_);
-    if (fate == TreeFate::changed) sintering_.advanceLazily(tree, sintered);
+    if (fate == TreeFate::changed) sintering_.advanceLazily(tree, sintered, true);
     return fate != TreeFate::gone;
   });
   record(sintered);

@@ -166,7 +166,7 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
   sizePrimaries(tree);
 }
 
-void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
+bool TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
   const TreeNeck* necks = necksOf(&tree);
   const std::uint32_t count = tree.count;
   for (std::uint32_t k = 0; k + 1 < tree.count;) {
@@ -178,7 +178,9 @@ void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
     ++changes.fused;
     k = 0;
   }
-  if (tree.count != count) type_.measure(tree);
+  if (tree.count == count) return false;
+  type_.measure(tree);
+  return true;
 }
 
 // By steps in the surface, at whose middle the characteristic time is taken; the excess over the sphere's surface,
@@ -244,23 +246,23 @@ void TreeSintering::rest(TreeHead& tree, double time) {
   tree.rest = fastest > 0 ? tolerance_ / fastest : never;
 }
 
-void TreeSintering::advance(Tree& tree, double time, Changes& changes) {
+void TreeSintering::advance(Tree& tree, double time, Changes& changes, bool isMeasured) {
   if (!isAggregate(tree.head())) return;
   const SinteringLaw& law = type_.material().sintering;
   const double dt = std::max(0.0, time - tree.head().time);
   if (type_.bySurface())
     surface(tree.own(), dt, changes);
   else if (!law.active())
-    fuseAll(tree.own(), changes);
+    isMeasured = fuseAll(tree.own(), changes) || isMeasured;
   else if (law.between == SinteringLaw::Between::parts)
     parts(tree, dt, changes);
   else
     neighbours(tree, dt, changes);
   TreeHead& head = tree.own();
-  // Primaries have lost sites, and volume with them.
-  for (std::uint32_t k = 0; k + 1 < head.count; ++k)
-    necksOf(&head)[k].sphere = sphereOfNeck(primariesOf(&head), necksOf(&head)[k]);
-  type_.measure(head);
+  if (law.active())  // primaries have lost sites, and volume with them
+    for (std::uint32_t k = 0; k + 1 < head.count; ++k)
+      necksOf(&head)[k].sphere = sphereOfNeck(primariesOf(&head), necksOf(&head)[k]);
+  if (law.active() || !isMeasured) type_.measure(head);
   rest(head, std::max(time, head.time));
   tree.fit();
 }

@@ -36,12 +36,12 @@ class TreeSintering {
 
   void setTemperature(double kelvin) { T_ = kelvin; }
   // To a time of the clock; also fuses what growth has left at the level of one primary. A tree that is there already
-  // stays.
-  void advance(Tree& tree, double time, Changes& changes);
+  // stays. `isMeasured`: whether its sums are those of its primaries and necks as they are.
+  void advance(Tree& tree, double time, Changes& changes, bool isMeasured = false);
   // The same, but for trees that may wait.
-  void advanceLazily(Tree& tree, Changes& changes) {
+  void advanceLazily(Tree& tree, Changes& changes, bool isMeasured = false) {
     const TreeHead& head = tree.head();
-    if (isAggregate(head) && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes);
+    if (isAggregate(head) && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes, isMeasured);
   }
 
   static constexpr double step = 0.005;
@@ -69,7 +69,8 @@ class TreeSintering {
   void losePartSites(TreeHead& tree, Changes& changes);
   void loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const;
   void sizePrimaries(TreeHead& tree) const;
-  void fuseAll(TreeHead& tree, Changes& changes);
+  // Whether any did, and the tree is measured.
+  bool fuseAll(TreeHead& tree, Changes& changes);
   void rest(TreeHead& tree, double time);
 
   const PrimaryTrees& type_;
