@@ -7,7 +7,7 @@
 
 namespace lampblack::particles {
 
-void fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
+std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
   TreePrimary* primaries = primariesOf(&tree);
   TreeNeck* necks = necksOf(&tree);
   const TreeNeck gone = necks[k];
@@ -58,17 +58,24 @@ void fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
     const bool isBurnt = !(primaries[neck.left].diameter > 0 && primaries[neck.right].diameter > 0);
     if (!isBurnt) neck.common = std::min(neck.common, touchingSurface(primaries, neck));
   };
+  // Where b was the first of what the whole tree before it was joined by, all there keeps its place.
+  const std::uint32_t kept = first == 0 && before == 0 ? middle : 0;
+  std::size_t from = kept;
   constexpr std::uint32_t together = 256;
   std::array<std::uint32_t, together> touched;
   for (std::uint32_t start = 0; start + 1 < tree.count; start += together) {
     std::size_t count = 0;
-    const std::uint32_t stop = std::min(start + together, tree.count - 1);
-    for (std::uint32_t n = start; n < stop; ++n) {
+    const std::uint32_t stop = std::min(start + together, tree.count - 1), same = std::clamp(kept, start, stop);
+    const auto note = [&](std::uint32_t n, bool isTouched) {
       touched[count] = n;
-      count += renumber(necks[n]) ? 1 : 0;
-    }
+      count += isTouched ? 1 : 0;
+    };
+    for (std::uint32_t n = start; n < same; ++n) note(n, (necks[n].left == a) | (necks[n].right == a));
+    for (std::uint32_t n = same; n < stop; ++n) note(n, renumber(necks[n]));
     for (std::size_t t = 0; t < count; ++t) join(necks[touched[t]]);
+    if (count > 0) from = std::min<std::size_t>(from, touched[0]);
   }
+  return from;
 }
 
 }  // namespace lampblack::particles

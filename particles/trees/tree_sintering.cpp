@@ -174,9 +174,8 @@ bool TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
       ++k;
       continue;
     }
-    fuseNeck(tree, k, type_.material());
+    k = static_cast<std::uint32_t>(fuseNeck(tree, k, type_.material()));
     ++changes.fused;
-    k = 0;
   }
   if (tree.count == count) return false;
   type_.measure(tree);

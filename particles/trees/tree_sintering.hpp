@@ -85,7 +85,8 @@ class TreeSintering {
 };
 
 // Makes the two primaries of the k-th neck one, in the place of the left one: its part of the tree goes where the right
-// one stood. Sums are not touched. Levels of other necks stay.
-void fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material);
+// one stood. Sums are not touched. Levels of other necks stay. Returns
+// from which neck on there are others than before.
+std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material);
 
 }  // namespace lampblack::particles
