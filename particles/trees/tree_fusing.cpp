@@ -1,11 +1,19 @@
 // Two primaries become one.
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "particles/trees/tree_sintering.hpp"
 
 namespace lampblack::particles {
+namespace {
+
+// GCC and Clang: compared and added as one.
+using Four = std::int32_t __attribute__((vector_size(16)));
+
+}  // namespace
 
 std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
   TreePrimary* primaries = primariesOf(&tree);
@@ -58,20 +66,37 @@ std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material
     const bool isBurnt = !(primaries[neck.left].diameter > 0 && primaries[neck.right].diameter > 0);
     if (!isBurnt) neck.common = std::min(neck.common, touchingSurface(primaries, neck));
   };
-  // Where b was the first of what the whole tree before it was joined by, all there keeps its place.
-  const std::uint32_t kept = first == 0 && before == 0 ? middle : 0;
-  std::size_t from = kept;
+  // The same where b is the first of the right part, as where a single primary was joined: a takes its place, and the
+  // left part the place of a range that begins with it.
+  const auto renumberBehind = [=](TreeNeck& neck) {
+    static_assert(offsetof(TreeNeck, last) == offsetof(TreeNeck, left) + 3 * sizeof(std::int32_t));
+    const auto lane = [](std::uint32_t i) { return static_cast<std::int32_t>(i); };
+    Four seen;
+    std::memcpy(&seen, &neck.left, sizeof seen);
+    const Four isA = seen == lane(a), isB = seen == lane(b);
+    const Four forB{lane(a), lane(a), lane(first), lane(b) - 1};
+    const Four now = isB ? forB : seen + (seen > lane(b));  // a mask is -1
+    std::memcpy(&neck.left, &now, sizeof now);
+    const Four either = isA | isB;
+    return (either[0] | either[1]) != 0;
+  };
+  const bool isBehind = before == 0;
+  std::size_t from = isBehind ? k : 0;
   constexpr std::uint32_t together = 256;
   std::array<std::uint32_t, together> touched;
   for (std::uint32_t start = 0; start + 1 < tree.count; start += together) {
     std::size_t count = 0;
-    const std::uint32_t stop = std::min(start + together, tree.count - 1), same = std::clamp(kept, start, stop);
-    const auto note = [&](std::uint32_t n, bool isTouched) {
-      touched[count] = n;
-      count += isTouched ? 1 : 0;
+    const std::uint32_t stop = std::min(start + together, tree.count - 1);
+    const auto renumberAll = [&](const auto& one) {
+      for (std::uint32_t n = start; n < stop; ++n) {
+        touched[count] = n;
+        count += one(necks[n]) ? 1 : 0;
+      }
     };
-    for (std::uint32_t n = start; n < same; ++n) note(n, (necks[n].left == a) | (necks[n].right == a));
-    for (std::uint32_t n = same; n < stop; ++n) note(n, renumber(necks[n]));
+    if (isBehind)
+      renumberAll(renumberBehind);
+    else
+      renumberAll(renumber);
     for (std::size_t t = 0; t < count; ++t) join(necks[touched[t]]);
     if (count > 0) from = std::min<std::size_t>(from, touched[0]);
   }
