@@ -67,7 +67,13 @@ TEST(PrimaryTrees, StayTreesHoweverTheyJoinAndFuse) {
         std::vector<double> levels;
         for (const TreeNeck& neck : parts[j].necks()) levels.push_back(sinteringLevel(neck));
         levels.erase(levels.begin() + static_cast<std::ptrdiff_t>(k));
-        fuseNeck(head, k, material);
+        std::vector<TreeNeck> old(parts[j].necks().begin(), parts[j].necks().end());
+        const std::size_t from = fuseNeck(head, k, material);
+        ASSERT_LE(from, k);
+        for (std::size_t n = 0; n < from; ++n) {  // nothing else before that
+          EXPECT_EQ(parts[j].necks()[n].common, old[n].common);
+          EXPECT_EQ(parts[j].necks()[n].sphere, old[n].sphere);
+        }
         type.measure(head);
         for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(head.units[c] / before[c], 1, 1e-13);
         std::vector<double> after;
