@@ -13,6 +13,7 @@
 #include "core/least_squares.hpp"
 #include "core/mesh_connect.hpp"
 #include "core/mesh_distribution.hpp"
+#include "core/paired_slopes.hpp"
 #include "core/sorted_numbers.hpp"
 
 namespace lampblack {
@@ -272,6 +273,10 @@ class MeshBuilder {
       m.gradientRow.push_back(isInside(c) ? static_cast<int>(m.gradientWeight.size()) : -1);
       if (!isInside(c)) continue;
       const std::span<const int> faces = facesOf(c);
+      if (std::array<Vector3, Mesh::mostSides> paired; pairedSlopes(m, c, paired)) {
+        m.gradientWeight.insert(m.gradientWeight.end(), paired.begin(), paired.begin() + std::ssize(faces));
+        continue;
+      }
       LeastSquares squares;
       for (const int face : faces) squares.add(stepFrom(c, face));
       squares.finish(m.dimension);

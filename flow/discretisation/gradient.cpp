@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/least_squares.hpp"
+#include "core/paired_slopes.hpp"
 
 namespace lampblack::flow {
 
@@ -19,6 +20,9 @@ const Vector3* Gradient::weights(int cell, std::span<const BoundaryData> known, 
     const int b = face - m.interiorFaces;
     return known.empty() ? BoundaryData::Value : known[isEachComponent ? b * components + first : b];
   };
+  const auto facesOfCell = std::span(m.faceOfCell).subspan(m.faceStart[cell], m.faceStart[cell + 1] - m.faceStart[cell]);
+  const auto isKnown = [&](int face) { return m.high[face] >= 0 || dataOf(face) == BoundaryData::Value; };
+  if (std::ranges::all_of(facesOfCell, isKnown) && pairedSlopes(m, cell, room)) return room.data();
   LeastSquares squares;
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
     const int face = m.faceOfCell[i];
@@ -29,9 +33,8 @@ const Vector3* Gradient::weights(int cell, std::span<const BoundaryData> known, 
   squares.finish(m.dimension);
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
     const int face = m.faceOfCell[i];
-    const bool counts = m.high[face] >= 0 || dataOf(face) == BoundaryData::Value;
     const double sign = m.low[face] == cell ? 1.0 : -1.0;
-    room[i - m.faceStart[cell]] = counts ? squares.weight(scaled(m.step[face], sign)) : Vector3{};
+    room[i - m.faceStart[cell]] = isKnown(face) ? squares.weight(scaled(m.step[face], sign)) : Vector3{};
   }
   return room.data();
 }

@@ -78,7 +78,7 @@ double FaceVelocity::ofCells(int face, const Cells& cells) {
   const double mean = meanAlong(normal, face, cells.velocity);
   if (!m.isSkewed()) return mean;
   double ofOffset = 0.0;
-  for (int i = 0; i < d; ++i) ofOffset += normal[i] * faceSlope(m, face, m.offset[face], cells.velocityGradient, d, i);
+  for (int i = 0; i < d; ++i) ofOffset += normal[i] * riseToCentre(m, face, cells.velocityGradient, d, i);
   offset_[face] = ofOffset;
   return mean;
 }

@@ -95,12 +95,17 @@ double MomentumForces::carriedVelocity(int face, double flux, int component, std
   const double slopeBeyond = slopeAlong(u.direction, gradient_.of(u.down, component), d);
   if (scheme_ == VelocityScheme::Central) {
     const double value = centralFaceValue(up, down, slope, slopeBeyond, u);
-    return m.isSkewed() ? value + faceSlope(m, face, m.offset[face], gradient_.values(), d, component) : value;
+    const bool isLed = m.isSkewed() && isCentreInReach(m, face);
+    return isLed ? value + faceSlope(m, face, m.offset[face], gradient_.values(), d, component) : value;
   }
-  // Curvatures are no measure of smoothness on cells without order: along the slope.
-  const double value =
-      m.isOblique() || m.isSkewed() ? up + u.toFace * slope : smoothFaceValue(up, down, slope, slopeBeyond, u);
-  return m.isSkewed() ? value + slopeAlong(m.offset[face], ofUp, d) : value;
+  // Curvatures are no measure of smoothness on cells without order: along the slope, and where steps miss the faces'
+  // centres along the parabola through both values (riseToCentre says why).
+  if (m.isSkewed()) {
+    const double share = u.toFace / u.ahead, linear = up + share * (down - up);
+    if (!isCentreInReach(m, face)) return linear;
+    return linear + (1.0 - share) * (u.toFace * slope - share * (down - up)) + slopeAlong(m.offset[face], ofUp, d);
+  }
+  return m.isOblique() ? up + u.toFace * slope : smoothFaceValue(up, down, slope, slopeBeyond, u);
 }
 
 // Convection in advective form, of the difference to the cell's own velocity, and implicit viscosity.

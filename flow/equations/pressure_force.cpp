@@ -29,7 +29,7 @@ void PressureForce::compute(std::span<const double> pressure, std::span<const do
     double value = 0.0;
     if (high >= 0) {
       value = m.lowWeight[face] * pressure[low] + (1.0 - m.lowWeight[face]) * pressure[high];
-      if (m.isSkewed()) value += faceSlope(m, face, m.offset[face], slope_);
+      if (m.isSkewed() && isCentreInReach(m, face)) value += faceSlope(m, face, m.offset[face], slope_);
     } else if (known_[face - m.interiorFaces] == BoundaryData::Value) {
       value = boundary[face - m.interiorFaces];
     } else {
