@@ -112,8 +112,9 @@ Settings settle(const DeckSource& source, DeckNode& root, bool besideModel, std:
     return said;
   }
   if (trees != nullptr) {
-    // Trees of soot needed a section of soot: without one a key of the present section is missing.
-    if (soot == nullptr && stochastic == nullptr && textOf(trees, "material", "") == "soot") return said;
+    // Trees of soot needed a section of soot, and had no such keys: here the key `description` has been forgotten.
+    const bool isOfSoot = textOf(trees, "material", "") == "soot" || trees->child("pah") != nullptr;
+    if (isOfSoot && soot == nullptr && stochastic == nullptr) return said;
     settleTrees(source, *trees, soot, besideModel, said);
     notes.push_back(formerNote(source, trees->nameAt, "trees are one description of 'particles'",
                                fmt::format("write {} there", fmt::join(said, ", "))));

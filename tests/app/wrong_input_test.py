@@ -16,7 +16,7 @@ import tempfile
 import running
 
 MECHANISM_KEY = f"mechanism: ../mechanisms/{running.MECHANISM}"
-SOOT = "soot:\n  pah: [A2]\n"
+SOOT = "particles:\n  description: two_equation_dimer\n  pah: [A2]\n"
 LONGEST = 1100  # letters of a line
 # A line of the deck under a message, or the mark below it.
 QUOTE = re.compile(r"^ *(\d+|--set)? \| ")
@@ -125,7 +125,7 @@ MISTAKES = [
           "boundaries.axis.side", ("the axes of this mesh are r and z",)),
     Wrong("a stream that is no inlet", "  low: fuel", "  low: fuell", "fuell", "initial.low",
           ("'fuell' is not an inlet", "fuel, oxidiser")),
-    Wrong("trajectories without soot", SOOT, "", "trajectories:", "trajectories", ("need a 'soot' section",)),
+    Wrong("trajectories without soot", SOOT, "", "trajectories:", "trajectories", ("need the section 'particles'",)),
     Wrong("trajectory outside", "{r: 2 mm, z: 4.5 mm}", "{r: 2 mm, z: 45 mm}", "z: 45 mm", "trajectories.start[1]",
           ("outside the mesh",)),
     Wrong("unknown key in --set", key="mesh.refinment", expected=("did you mean 'refinement'?",),
