@@ -8,6 +8,7 @@
 #include <map>
 
 #include "core/constants.hpp"
+#include "particles/collisions/collision_physics.hpp"
 #include "particles/collisions/sphere.hpp"
 #include "tests/coupling/moving_particles.hpp"
 #include "tests/every_module.hpp"
@@ -208,6 +209,34 @@ TEST(EnsembleTransport, DiffusesAcrossObliqueFacesAsAcrossOthers) {
   report(fmt::format("oblique faces: largest |z| {:.2f}, mean square {:.2f}", score.largest, score.square));
   EXPECT_LT(score.largest, 4.5);
   EXPECT_LT(score.square, 2.5);  // of neighbours that share faces; 60 without the correction
+}
+
+// Alone in the middle of 3 x 3 cells of gas at rest: the share that diffuses out in a half of a step.
+TEST(EnsembleTransport, DiffusesByTheDiameterOfMobility) {
+  struct One {
+    double primaries, diameter;
+  };
+  for (const auto& [primaries, d] : {One{1, 2e-9}, {1, 7e-9}, {30, 4e-9}, {1, 3.3e-7}}) {
+    Moving m(3, [](const Vector3&) { return Vector3{}; });
+    const double h = 0.01 / 3, share = 0.1;
+    const CarrierGas gas{1500.0, m.state.thermodynamicPressure, m.state.density[0], 5e-5, 0.028};
+    const double D = brownianDiffusivity(gas, SootAggregate::mobilityFactor(primaries) * d);
+    constexpr int count = 20000;
+    for (int c = 0; c < m.box.mesh.owned; ++c) {
+      m.populations[at(c)].assign(packedHead, 0.0);
+      if (std::hypot(m.box.mesh.centre[at(c)][0] - 0.005, m.box.mesh.centre[at(c)][1] - 0.005) > 1e-6) continue;
+      for (int k = 0; k < count; ++k)
+        packDoubles(m.populations[at(c)], GivenParticle{primaries * massOf(d), 0.0, primaries, 1e10});
+    }
+    EnsembleTransport transport = m.transport(true, 5);
+    transport.advance({m.state, m.drift, m.density, m.viscosity, m.weight}, 2 * share * h * h / (4 * D), 0,
+                      EnsembleTransport::Half::First, m.populations, m.arrived);
+    EXPECT_EQ(transport.parts(), 1);
+    for (int c = 0; c < m.box.mesh.owned; ++c)
+      if (const auto left = packedParticles(m.populations[at(c)]).size(); left > 0) {
+        EXPECT_NEAR(1 - static_cast<double>(left) / count, share, 0.02 * share) << primaries << " of " << d;
+      }
+  }
 }
 
 // Numbers and all moments in the whole of a closed box stay, to round-off, on any number of ranks and on cells of any
