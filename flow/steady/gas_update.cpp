@@ -117,6 +117,15 @@ void GasUpdate::assemble(const State& state, const FlowResidual& residual, std::
   }
 }
 
+// Where gas ignites, what there is little of grows by itself. In a pseudo-time that is longer than that takes the
+// linear system knows of another place without change, behind that of no gas at all.
+bool GasUpdate::isMisled(const State& state, std::size_t c, double share) const {
+  const double *Y = &state.Y[c * n_], *change = &change_[c * (n_ + 1)], *left = &right_[c * (n_ + 1)];
+  for (std::size_t k = 0; k < n_; ++k)
+    if (left[k] > 0.0 && change[k] < 0.0 && Y[k] + share * change[k] < 2.0 * leastOfSpecies) return true;
+  return false;
+}
+
 double GasUpdate::take(State& state, int cell, double& largestRise) {
   const auto c = static_cast<std::size_t>(cell);
   const double* change = &change_[c * (n_ + 1)];
@@ -131,6 +140,7 @@ double GasUpdate::take(State& state, int cell, double& largestRise) {
   const std::size_t width = n_ + 1;
   const double V = context_.mesh.volume[c];
   const double *slopes = &slopes_[c * width * width], *block = system_.block(cell);
+  if (isMisled(state, c, share)) return 0.0;
   double sum = 0.0;
   for (std::size_t k = 0; k < n_; ++k) {
     const double reacts = -V * slopes[k * (width + 1)], moves = block[k * (width + 1)] - reacts;
