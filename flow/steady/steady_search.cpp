@@ -26,8 +26,8 @@ constexpr double mostGrown = 1e4;
 // is none. For a few iterations a flame that burns may release less, or take up heat.
 constexpr double leftOfHeat = 0.1;
 constexpr int darkIterations = 20;
-// Steps before the first attempt; iterations of one at most.
-constexpr int stepsOfAttempt = 20, mostOfAttempt = 300;
+// Steps before the first attempt; iterations of one, and of these without gain where it goes on beyond them.
+constexpr int stepsOfAttempt = 20, mostOfAttempt = 300, patienceOfAttempt = 30;
 
 }  // namespace
 
@@ -50,8 +50,9 @@ bool SteadySearch::isAttemptDue() const {
 }
 
 bool SteadySearch::hasNoIterationsLeft() const {
-  return isAttempt_ ? iterationsNow_ >= std::min(mostOfAttempt, options_.iterations)
-                    : iterations_ - attempted_ >= options_.iterations;
+  if (!isAttempt_) return iterations_ - attempted_ >= options_.iterations;
+  return iterationsNow_ >= options_.iterations ||
+         (iterationsNow_ >= mostOfAttempt && iterationsNow_ - bestAt_ >= patienceOfAttempt);
 }
 
 void SteadySearch::addStep(double heatRelease, bool wasRetried) {

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "core/modules.hpp"
 #include "core/state_backup.hpp"
 
@@ -317,16 +319,27 @@ TEST(SteadySearch, AnAttemptIsTakenWhereItBurns) {
   EXPECT_TRUE(cold.isSteady());
 }
 
-TEST(SteadySearch, AnAttemptHasNoMoreThanItsIterations) {
+TEST(SteadySearch, AnAttemptGoesOnBeyondItsIterationsWhileItGains) {
   SteadySearch search({.attempts = 1});
   steps(search);
   double residual = high;
-  for (int i = 0; i < 299; ++i) search.addIteration(residual *= 0.99, 1.0);
+  for (int i = 0; i < 300; ++i) search.addIteration(residual *= 0.99, 1.0);
   EXPECT_TRUE(search.isAttempt());
-  search.addIteration(residual * 0.99, 1.0);
+  search.addIteration(residual *= 0.8, 1.0);
+  for (int i = 0; i < 29; ++i) search.addIteration(residual, 1.0);
+  EXPECT_TRUE(search.isAttempt());
+  search.addIteration(residual, 1.0);
   EXPECT_FALSE(search.isAttempt());
   EXPECT_TRUE(search.takesBack());
   EXPECT_EQ(search.phase(), Phase::Steps);
+
+  // No longer than any iterations.
+  SteadySearch few({.iterations = 330, .attempts = 1});
+  steps(few);
+  for (int i = 0; i < 329; ++i) few.addIteration(high * std::pow(0.99, i), 1.0);
+  EXPECT_TRUE(few.isAttempt());
+  few.addIteration(1e-3 * high, 1.0);
+  EXPECT_FALSE(few.isAttempt());
 }
 
 TEST(SteadySearch, WhatWasFoundIsFoundButForATighterLimit) {
