@@ -69,8 +69,8 @@ SteadySearch::Residual FlowLoop::residualOfSearch() const {
   const auto raise = [](double& to, double value) { to = std::isfinite(value) ? std::max(to, value) : INFINITY; };
   for (const ResidualNorm& norm : norms_) {
     raise(found.largest, norm.value);
-    if (norm.equation == "momentum" || norm.equation == "swirl" || norm.equation == "enthalpy")
-      raise(found.ofFlame, norm.value);
+    if (norm.equation == "momentum" || norm.equation == "swirl") raise(found.ofMomentum, norm.value);
+    if (norm.equation == "enthalpy") raise(found.ofEnthalpy, norm.value);
   }
   return found;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -66,8 +67,7 @@ void SteadySearch::addStep(double heatRelease, bool wasRetried) {
 
 void SteadySearch::addResidualOfStep(const Residual& told, bool burns) {
   const double residual = told.largest;
-  latest_ = residual;
-  flameLatest_ = told.ofFlame;
+  latest_ = told;
   isSteady_ = residual <= options_.residual;
   if (first_ > 0.0) least_ = std::min(least_, residual);
   const bool established = isEstablished();
@@ -75,8 +75,8 @@ void SteadySearch::addResidualOfStep(const Residual& told, bool burns) {
   phase_ = Phase::Iterations;
   isAttempt_ = !established;
   if (!(first_ > 0.0)) first_ = least_ = residual;
-  began_ = best_ = residual;
-  flameAtBegin_ = flameLatest_;
+  began_ = told;
+  best_ = residual;
   heatAtBegin_ = heat_.back();
   iterationsNow_ = bestAt_ = failures_ = dark_ = 0;
 }
@@ -94,15 +94,14 @@ void SteadySearch::addIteration(const Residual& told, double heatRelease, bool b
   ++iterations_;
   ++iterationsNow_;
   failures_ = 0;
-  latest_ = residual;
-  flameLatest_ = told.ofFlame;
+  latest_ = told;
   dark_ = heatRelease < leftOfHeat * heatAtBegin_ ? dark_ + 1 : 0;
   if (dark_ >= darkIterations) {
     goBack(fmt::format("the flame has gone out: {:.3g} W of {:.3g} W were left", heatRelease, heatAtBegin_));
     return;
   }
-  if (!(residual <= mostGrown * began_)) {
-    goBack(fmt::format("the residual has grown from {:.2e} to {:.2e}", began_, residual));
+  if (!(residual <= mostGrown * began_.largest)) {
+    goBack(fmt::format("the residual has grown from {:.2e} to {:.2e}", began_.largest, residual));
     return;
   }
   least_ = std::min(least_, residual);
@@ -137,13 +136,22 @@ void SteadySearch::endIterations(const std::string& why) {
   takesBack_ = true;
 }
 
+bool SteadySearch::hasLostFlame() {
+  bool isLost = false;
+  const auto look = [&](const char* equation, double before, double now) {
+    // Below the limit it is at rest, whatever the last digits do.
+    if (!(now > options_.residual) || now < before) return;
+    isLost = true;
+    if (now > before) whyNot_ += fmt::format("; that of {} went from {:.2e} to {:.2e}", equation, before, now);
+  };
+  look("momentum", began_.ofMomentum, latest_.ofMomentum);
+  look("enthalpy", began_.ofEnthalpy, latest_.ofEnthalpy);
+  return isLost;
+}
+
 void SteadySearch::goBack(const std::string& why) {
   whyNot_ = why;
-  // Below the limit the flame is at rest, whatever the last digits do.
-  const bool lostFlame = flameLatest_ > options_.residual && !(flameLatest_ < flameAtBegin_);
-  takesBack_ = dark_ > 0 || !(latest_ < began_) || lostFlame;
-  if (lostFlame && flameLatest_ > flameAtBegin_)
-    whyNot_ += fmt::format("; that of momentum and enthalpy went from {:.2e} to {:.2e}", flameAtBegin_, flameLatest_);
+  takesBack_ = hasLostFlame() || dark_ > 0 || !(latest_.largest < began_.largest);
   phase_ = Phase::Steps;
   if (isAttempt_) {
     isAttempt_ = false;
@@ -169,7 +177,18 @@ double SteadySearch::progress() const {
 }
 
 void SteadySearch::saveOrLoad(StateArchive& archive) {
-  std::vector<double> numbers{first_, least_, latest_, began_, heatAtBegin_, best_, flameAtBegin_, flameLatest_};
+  const std::array<double*, 10> values{&first_,
+                                       &least_,
+                                       &latest_.largest,
+                                       &latest_.ofMomentum,
+                                       &latest_.ofEnthalpy,
+                                       &began_.largest,
+                                       &began_.ofMomentum,
+                                       &began_.ofEnthalpy,
+                                       &heatAtBegin_,
+                                       &best_};
+  std::vector<double> numbers;
+  for (const double* value : values) numbers.push_back(*value);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
                      &dark_, &lightings_})
     numbers.push_back(*count);
@@ -180,8 +199,7 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   archive.shared("steady_search_heat", heat);
   if (!archive.loading()) return;
   std::size_t next = 0;
-  for (double* value : {&first_, &least_, &latest_, &began_, &heatAtBegin_, &best_, &flameAtBegin_, &flameLatest_})
-    *value = numbers.at(next++);
+  for (double* value : values) *value = numbers.at(next++);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
                      &dark_, &lightings_})
     *count = static_cast<int>(numbers.at(next++));
@@ -189,7 +207,7 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   for (int* count : {&attempts_, &attempted_}) *count = static_cast<int>(numbers.at(next++));
   isAttempt_ = numbers.at(next) != 0.0;
   heat_.assign(heat.begin(), heat.end());
-  isSteady_ = latest_ > 0.0 && latest_ <= options_.residual && dark_ == 0;
+  isSteady_ = latest_.largest > 0.0 && latest_.largest <= options_.residual && dark_ == 0;
 }
 
 }  // namespace lampblack::flow

@@ -24,12 +24,12 @@ class SteadySearch {
     int attempts = 0;
   };
   enum class Phase { Steps, Iterations };
-  // The largest residual of any equation, and of those that carry the flame, momentum (swirl) and enthalpy: a trace's
-  // may fall while these run away.
+  // The largest residual of any equation, and those that carry the flame, of momentum (or swirl) and of enthalpy: a
+  // trace's may fall while these run away, and that of momentum falls in any case after a short step.
   struct Residual {
-    double largest = 0.0, ofFlame = 0.0;
-    Residual(double all) : largest(all), ofFlame(all) {}
-    Residual(double all, double flame) : largest(all), ofFlame(flame) {}
+    double largest = 0.0, ofMomentum = 0.0, ofEnthalpy = 0.0;
+    Residual(double all) : Residual(all, all, all) {}
+    Residual(double all, double momentum, double enthalpy) : largest(all), ofMomentum(momentum), ofEnthalpy(enthalpy) {}
   };
 
   explicit SteadySearch(const Options& options) : options_(options) {}
@@ -83,18 +83,21 @@ class SteadySearch {
   [[nodiscard]] bool isAttemptDue() const;
   [[nodiscard]] bool hasNoIterationsLeft() const;
   void goBack(const std::string& why);
+  // Whether the iterations have left no less of an equation that carries the flame; adds to why they ended.
+  [[nodiscard]] bool hasLostFlame();
 
   Options options_;
   Phase phase_ = Phase::Steps;
   bool isSteady_ = false, isGivenUp_ = false, takesBack_ = false;
   int steps_ = 0, iterations_ = 0, returns_ = 0, lightings_ = 0;
-  int stepsNow_ = 0;                                 // of the present phase
-  std::deque<double> heat_;                          // W, of the last steps, the present at the back
-  int undisturbed_ = 0;                              // steps since one that was tried again
-  double first_ = 0.0, least_ = 0.0, latest_ = 0.0;  // residuals: of the first iterations' begin, since, the last
+  int stepsNow_ = 0;                  // of the present phase
+  std::deque<double> heat_;           // W, of the last steps, the present at the back
+  int undisturbed_ = 0;               // steps since one that was tried again
+  double first_ = 0.0, least_ = 0.0;  // largest residuals: of the first iterations' begin, since
+  Residual latest_{0.0};
   // Of the present iterations: the residual and the heat that they began with, the least residual since, when it was.
-  double began_ = 0.0, heatAtBegin_ = 0.0, best_ = 0.0;
-  double flameAtBegin_ = 0.0, flameLatest_ = 0.0;  // residuals of the flame
+  Residual began_{0.0};
+  double heatAtBegin_ = 0.0, best_ = 0.0;
   int iterationsNow_ = 0, bestAt_ = 0;
   int failures_ = 0, dark_ = 0;  // in a row: failures, iterations with a small part of that heat
   int attempts_ = 0, attempted_ = 0;
