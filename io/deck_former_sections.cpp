@@ -83,9 +83,7 @@ class Mover {
       throw deckError(source_, node.nameAt, before,
                       fmt::format("this is '{}' now, which is given too; leave '{}' out", now, before));
     } else if (node.at.overrideIndex > other.at.overrideIndex) {
-      const std::string name = other.name;
       other = std::move(node);
-      other.name = name;
     }
   }
 
