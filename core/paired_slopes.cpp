@@ -34,7 +34,9 @@ bool pairedSlopes(const Mesh& m, int cell, std::span<Vector3> weight) {
   const CellShape shape = m.shape[c];
   if ((shape != CellShape::Quadrilateral && shape != CellShape::Hexahedron) || !isBent(m, cell)) return false;
   const int count = m.faceStart[c + 1] - m.faceStart[c];
-  const auto at = [&](int i) { return static_cast<std::size_t>(m.faceOfCell[static_cast<std::size_t>(m.faceStart[c] + i)]); };
+  const auto at = [&](int i) {
+    return static_cast<std::size_t>(m.faceOfCell[static_cast<std::size_t>(m.faceStart[c] + i)]);
+  };
   const auto sideOf = [&](int i) -> const CellSide& {
     return sidesOf(shape)[static_cast<std::size_t>(m.low[at(i)] == cell ? m.lowSide[at(i)] : m.highSide[at(i)])];
   };

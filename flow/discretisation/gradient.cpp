@@ -20,7 +20,8 @@ const Vector3* Gradient::weights(int cell, std::span<const BoundaryData> known, 
     const int b = face - m.interiorFaces;
     return known.empty() ? BoundaryData::Value : known[isEachComponent ? b * components + first : b];
   };
-  const auto facesOfCell = std::span(m.faceOfCell).subspan(m.faceStart[cell], m.faceStart[cell + 1] - m.faceStart[cell]);
+  const auto facesOfCell =
+      std::span(m.faceOfCell).subspan(m.faceStart[cell], m.faceStart[cell + 1] - m.faceStart[cell]);
   const auto isKnown = [&](int face) { return m.high[face] >= 0 || dataOf(face) == BoundaryData::Value; };
   if (std::ranges::all_of(facesOfCell, isKnown) && pairedSlopes(m, cell, room)) return room.data();
   LeastSquares squares;

@@ -80,9 +80,9 @@ inline double faceSlope(const Mesh& m, int face, const Vector3& direction, std::
   return slope;
 }
 
-// Whether a skewed mesh's interior face has its centre so near the place where the step meets it that slopes lead there:
-// within its own size. Thin cells around a bend are missed by many times their height; there the face belongs to the
-// layer of both cells, whose values tell its own, and slopes across the layers tell nothing of it.
+// Whether a skewed mesh's interior face has its centre so near the place where the step meets it that slopes lead
+// there: within its own size. Thin cells around a bend are missed by many times their height; there the face belongs to
+// the layer of both cells, whose values tell its own, and slopes across the layers tell nothing of it.
 inline bool isCentreInReach(const Mesh& m, int face) {
   const double size = m.size(face);
   return dot(m.offset[face], m.offset[face]) <= (m.dimension == 3 ? size : size * size);

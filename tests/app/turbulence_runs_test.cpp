@@ -72,7 +72,8 @@ TEST_P(TurbulenceRuns, GoOnAndMoveAndDoNotDependOnRanks) {
                                   ", turbulence_intensity: 0.05, turbulence_length: 2 mm", 20.0);
   const auto whole = scratch.path() / "whole";
   const test::Ran all = resultsOf({deck, whole});
-  for (const TurbulenceModel::Variable& variable : turbulenceModel(GetParam().substr(0, GetParam().find(',')))->variables()) {
+  for (const TurbulenceModel::Variable& variable :
+       turbulenceModel(GetParam().substr(0, GetParam().find(',')))->variables()) {
     const auto& values = all.fields.at("000005/" + variable.name);
     EXPECT_LT(*std::ranges::min_element(values), 0.9 * *std::ranges::max_element(values));
   }

@@ -10,10 +10,10 @@ namespace {
 
 constexpr double bendRadius = 1e-2, layers = 2e-4;  // m
 
-// Layers around a centre, `along` cells a radian.
-Box ringOfLayers(int along) {
+// Layers around a centre, `along` cells a radian, the last `ratio` times as long as the first.
+Box ringOfLayers(int along, double ratio = 1.0) {
   MeshSpec spec;
-  spec.vertices = {uniformAxis(1.0, along), uniformAxis(layers, 20), {}};
+  spec.vertices = {gradedAxis(0.0, {{1.0, along, ratio}}), uniformAxis(layers, 20), {}};
   std::vector<BoundaryCondition> conditions;
   for (int axis = 0; axis < 2; ++axis)
     for (const bool atMax : {false, true}) {
@@ -77,10 +77,10 @@ TEST(BentCells, VelocitiesAtFacesBelongToTheirLayer) {
   EXPECT_LT(errorAtFaces(20, false, rise), 0.02);
 }
 
-// The slope across the layers is that from layer to layer, whatever lies beside the cell along them: with least squares it
-// is 16 % less.
+// The slope across the layers is that from layer to layer, whatever lies beside the cell along them: with least squares
+// it is 16 % less.
 TEST(BentCells, SlopesAcrossLayersAreThoseBetweenThem) {
-  const Box box = ringOfLayers(20);
+  const Box box = ringOfLayers(20, 4.0);
   const Mesh& m = box.mesh;
   std::vector<double> values, gradient(at(2 * m.owned));
   for (const std::int64_t number : m.naturalCell) values.push_back(static_cast<double>(number / 20));
@@ -89,7 +89,7 @@ TEST(BentCells, SlopesAcrossLayersAreThoseBetweenThem) {
     if (m.gradientRow[at(c)] < 0) continue;
     const Vector3 outwards = scaled(m.centre[at(c)], 1.0 / length(m.centre[at(c)]));
     EXPECT_NEAR((gradient[at(2 * c)] * outwards[0] + gradient[at(2 * c + 1)] * outwards[1]) * layers / 20, 1.0, 2e-3);
-    EXPECT_NEAR((gradient[at(2 * c)] * outwards[1] - gradient[at(2 * c + 1)] * outwards[0]) * layers / 20, 0.0, 1e-9);
+    EXPECT_NEAR((gradient[at(2 * c)] * outwards[1] - gradient[at(2 * c + 1)] * outwards[0]) * layers / 20, 0.0, 2e-3);
   }
 }
 

@@ -209,6 +209,25 @@ def check_wall_friction(folder):
     assert abs(found["runs"][0]["ratio"] - 5) < 1e-9 and abs(found["runs"][0]["y_plus"] - 0.4) < 1e-9, found
     assert abs(found["known"]["CFL3D"][0] - 0.00615) < 1e-5 and abs(found["cp"]["CFL3D"]["shift"] - 0.01) < 1e-6, found
     assert found["cp"]["CFL3D"]["apart"] < 1e-6, found
+    # Of the hump the friction's changes of sign, in chords, and the velocity before it.
+    x = 2.684 + 0.42 * np.linspace(-3, 2, 501)
+    run = write_run(folder / "hump", x, np.linspace(0, 0.4, 5), lambda x, y: 300 + 0 * x, {"boundaries": {"entrance": {"velocity": 30.0}, "wall": {}}})
+    with h5py.File(run / "results.h5", "r+") as file:
+        centres, step, at = file["mesh/cellCentre"][()], file["steps/000003"], file.create_group("walls/wall")
+        places = 0.5 * (x[1:] + x[:-1])
+        chords = (places - 2.684) / 0.42
+        step["density"], step["eddy_viscosity"] = np.full(len(centres), 1.2), np.full(len(centres), 1e-4)
+        step["viscosity"], step["pressure"] = np.full(len(centres), 2e-5), np.zeros(len(centres))
+        step["velocity"] = np.stack([35.0 + 10 * (centres[:, 0] > 2.0), np.zeros(len(centres))], axis=1)
+        for name, values in (("step", 0 * places + 3), ("x", places), ("friction_x", 0.6 * 35**2 * (chords - 0.66) * (chords - 1.26)),
+                             ("friction_y", 0 * places), ("y_plus", 0 * places + 0.4)):
+            at[name] = values
+    code, told, err = called("compare_wall_friction", run, "--case", "turbulent_hump", "--model", "sa", "--json", "--picture", folder / "hump.png")
+    assert code == 0, err
+    found = json.loads(told)
+    assert np.allclose(found["runs"][0]["turns"], [0.66, 1.26], atol=1e-4), found
+    assert np.allclose(found["runs"][0]["cf"], [(x - 0.66) * (x - 1.26) for x in found["at"]], atol=1e-4), found
+    assert abs(found["known"]["CFL3D"][1] - 0.00664) < 1e-5, found
     code, _, err = called("compare_wall_friction", folder / "nowhere", "--case", "flat_plate")
     assert code == 2 and "nowhere" in err, err
 
