@@ -135,8 +135,8 @@ TEST(Repartition, BalancesABandOfCostlyCellsAndChangesNothingElse) {
 // The ensembles of the cells go along, each once.
 TEST(Repartition, TakesEnsemblesAlong) {
   const test::SharedScratchFolder scratch;
-  const std::vector<std::string> ensembles{"particles.number=40", "particles.minimum_number_density=1e9 1/m^3",
-                                           "particles.exchange=one_way"};
+  const std::vector<std::string> ensembles{"particles.description=ensemble", "particles.number=40",
+                                           "particles.minimum_number_density=1e9 1/m^3", "particles.exchange=one_way"};
   const auto with = [&](const std::string& repartition) {
     std::vector<std::string> all = ensembles;
     all.push_back(repartition);

@@ -49,7 +49,7 @@ def sections(count: int, factor: float) -> tuple:
 
 
 def ensembles(seed: int) -> tuple:
-    return (f"seed={seed}", "particles={description: ensemble, number: 500, averaging_time: 0 s, keep_hydrogen: false}")
+    return (f"seed={seed}", "particles.description=ensemble", "particles.number=500", "particles.averaging_time=0 s", "particles.keep_hydrogen=false")
 
 
 def profiles(program: running.Program, deck: pathlib.Path, options: tuple) -> np.ndarray:
