@@ -85,6 +85,9 @@ class EnsembleTransport {
   static constexpr int smallest = -94;  // log2 of the smallest volume, m3: 0.5 nm
   // Of the tables of diffusivities, a factor of two in volume each: up to 1.9 um, beyond which D d^2 stays as it is.
   static constexpr std::size_t nodes = 37;
+  static constexpr std::size_t sidesTogether = 8;
+  static_assert(Mesh::mostSides <= sidesTogether);
+  using SideValues = std::array<double, sidesTogether>;  // of each side of a cell
   struct Side;
   struct SideLanes;
   struct Size;
@@ -104,7 +107,7 @@ class EnsembleTransport {
   [[nodiscard]] bool diffuses(int face) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
   [[nodiscard]] static Size sizeOf(double volume, double d, double primaries);
-  [[nodiscard]] double sumChances(const Size& size, const std::vector<Side>& sides, std::span<double> upTo) const;
+  [[nodiscard]] double sumChances(const Size& size, const std::vector<Side>& sides, SideValues& upTo) const;
   void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const;
   void drawLeaving(int cell, const std::vector<Side>& sides, RandomStream& random, Rows& population, Rows& arrived);
   void drawPieces(Draw& draw, double* row);

@@ -82,8 +82,8 @@ EnsembleTransport::Size EnsembleTransport::sizeOf(double volume, double d, doubl
 }
 
 // The sums of its probabilities to leave through the sides up to each of them; returns that of all.
-double EnsembleTransport::sumChances(const Size& size, const std::vector<Side>& sides, std::span<double> upTo) const {
-  numerics::storeLanes(upTo.data(), lanes_->chances(size));
+double EnsembleTransport::sumChances(const Size& size, const std::vector<Side>& sides, SideValues& upTo) const {
+  upTo = lanes_->chances(size);
   if (lanes_->hasWall)
     for (std::size_t s = 0; s < sides.size(); ++s)
       if (sides[s].isWall) upTo[s] = sides[s].toWall(size.ofClass, size.at, size.perSquare);
@@ -178,7 +178,7 @@ void EnsembleTransport::measureHits(const Rows& population, const Rows& arrived)
 
 // Of a particle of which these pieces are looked at, each with the probability of its hit.
 void EnsembleTransport::drawHits(Draw& draw, double* row, const Size& size, std::span<const Hit> hits) {
-  std::array<double, numerics::laneCount> upTo, leaving{};
+  SideValues upTo, leaving{};
   const double sum = sumChances(size, draw.sides, upTo);
   if (sum > 1.0 && !draw.isLimited[size.ofClass]) ++limited_;
   std::uint32_t gone = 0;
@@ -212,7 +212,7 @@ void EnsembleTransport::drawPieces(Draw& draw, double* row) {
       return;
     }
   }
-  std::array<double, numerics::laneCount> upTo, leaving{};
+  SideValues upTo, leaving{};
   const double volume = massAt(row) / options_.type.density();
   const Size size = sizeOf(volume, sphereDiameter(volume), row[2]);
   const double sum = sumChances(size, draw.sides, upTo);

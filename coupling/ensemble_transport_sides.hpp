@@ -10,7 +10,6 @@
 #include "core/modules.hpp"
 #include "coupling/ensemble_transport.hpp"
 #include "flow/boundaries/wall_flux.hpp"
-#include "numerics/lanes.hpp"
 
 namespace lampblack::coupling {
 
@@ -71,14 +70,14 @@ struct EnsembleTransport::Side {
   }
 };
 
-// The sides of a cell beside one another in vector lanes: those that are no walls.
+// The sides of a cell beside one another, for loops that are compiled to vector instructions: those that are no walls.
 struct EnsembleTransport::SideLanes {
-  std::array<numerics::Lanes, classes> convected, diffused;
-  std::array<numerics::Lanes, nodes> diffusion;
+  using Lanes = SideValues;
+  std::array<Lanes, classes> convected{}, diffused{};
+  std::array<Lanes, nodes> diffusion{};
   bool hasWall = false;
 
   void set(const std::vector<Side>& sides) {
-    static_assert(Mesh::mostSides <= numerics::laneCount);
     hasWall = std::ranges::any_of(sides, &Side::isWall);
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const Side& side = sides[s];
@@ -88,9 +87,13 @@ struct EnsembleTransport::SideLanes {
     }
   }
   // The probability to leave through each of them.
-  [[nodiscard]] numerics::Lanes chances(const Size& size) const {
-    const numerics::Lanes low = diffusion[size.at.node], high = diffusion[size.at.node + 1];
-    return convected[size.ofClass] + diffused[size.ofClass] * size.perSquare * (low + size.at.part * (high - low));
+  [[nodiscard]] Lanes chances(const Size& size) const {
+    const Lanes &low = diffusion[size.at.node], &high = diffusion[size.at.node + 1];
+    const Lanes &gas = convected[size.ofClass], &own = diffused[size.ofClass];
+    Lanes all;
+    for (std::size_t s = 0; s < all.size(); ++s)
+      all[s] = gas[s] + own[s] * size.perSquare * (low[s] + size.at.part * (high[s] - low[s]));
+    return all;
   }
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -67,8 +68,9 @@ void compare(SootShape shape, const test::FlameGas& gas, double dt, bool someLos
       EXPECT_EQ(all.carbon[k] + all.hydrogen[k], 0);
       continue;
     }
-    expectNear(all.carbon[k], p.carbon, mass);
-    expectNear(all.hydrogen[k], p.hydrogen, mass);
+    const double most = std::max(mass, SootAggregate::mass(p));  // some grow to thousands of times what they were
+    expectNear(all.carbon[k], p.carbon, most);
+    expectNear(all.hydrogen[k], p.hydrogen, most);
     expectNear(all.primaries[k], p.primaries, p.primaries);
     expectNear(all.diameter[k], p.diameter, p.diameter);
   }
