@@ -29,7 +29,7 @@ constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 // A cell whose change has to be limited goes slower than others in the next iteration, by the share that was taken, and
-// catches up when it has not to be: gas that ignites does so in down to a millionth of the time that it stays.
+// catches up when it has not to be: gas that ignites does so in far less time than it stays.
 constexpr double mostSlowed = 0.25, catchesUp = 1.5, leastHaste = 1e-8;
 
 }  // namespace
