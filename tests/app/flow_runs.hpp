@@ -10,6 +10,7 @@
 
 #include "app/flow/flow_loop.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"
 
 namespace lampblack::test {
@@ -33,6 +34,11 @@ inline RunRecord runFlow(const Deck& deck, const std::filesystem::path& path,
   RunRecord record;
   loop.report(1.0, record);
   return record;
+}
+
+// A field of the last state that a run wrote.
+inline std::vector<double> lastOf(const Hdf5Reader& results, const std::string& field) {
+  return results.numbers("/steps/" + results.names("/steps").back() + "/" + field);
 }
 
 }  // namespace lampblack::test

@@ -67,17 +67,13 @@ RunRecord runChannel(const std::filesystem::path& path, const std::vector<std::s
 
 const std::string steady = "time.mode=steady", boundaries = "output.boundaries=[all]";
 
-std::vector<double> lastOf(const Hdf5Reader& results, const std::string& field) {
-  return results.numbers("/steps/" + results.names("/steps").back() + "/" + field);
-}
-
 TEST(SteadyMode, FindsTheStateThatALongRunInTimeEndsIn) {
   const test::SharedScratchFolder scratch;
   const RunRecord found = runChannel(scratch.path() / "found", {steady, "time.steady.residual=1e-9", boundaries});
   runChannel(scratch.path() / "marched", {"time.end=0.3 s", "output.history_steps=100", boundaries});
   const Hdf5Reader results(scratch.path() / "found/results.h5"), marched(scratch.path() / "marched/results.h5");
   for (const char* field : {"temperature", "velocity", "viscosity", "conductivity"}) {
-    const std::vector<double> a = lastOf(results, field), b = lastOf(marched, field);
+    const std::vector<double> a = test::lastOf(results, field), b = test::lastOf(marched, field);
     const auto [low, high] = std::ranges::minmax(b);
     for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-6 * (high - low)) << field << ' ' << i;
   }
@@ -106,93 +102,6 @@ TEST(SteadyMode, FindsTheStateThatALongRunInTimeEndsIn) {
                                        HasSubstr("\"residual_before_iterations\": ")));
 }
 
-// Half of a turbulent channel by wall functions, driven along periodic sides, at a friction Reynolds number of 2003.
-// The mean velocity over the friction velocity is that of a program of its own for the same equations in one dimension
-// (docs/verification.md): the first cell's by the logarithmic law, whose mean is below its value at the centre.
-TEST(SteadyMode, FindsATurbulentChannel) {
-  const test::SharedScratchFolder scratch;
-  const auto deck = [](const std::vector<std::string>& overrides) {
-    return test::flowDeck("perfect_gas_1.yaml", R"(
-transport:
-  model: unity_lewis
-  sutherland: {viscosity: 1.68e-5 Pa s, temperature: 273 K, constant: 110.5 K, prandtl_number: 0.71}
-turbulence: {model: k_epsilon, eddy_viscosity_ratio: 30, energy: 0.8 m^2/s^2}
-mesh: {geometry: planar, x: [{to: 6 m, cells: 3}], y: [{to: 5 cm, cells: 10}]}
-boundaries:
-  left: {type: periodic, side: x-min}
-  right: {type: periodic, side: x-max}
-  wall: {type: wall, side: y-min, temperature: 300 K}
-  middle: {type: symmetry, side: y-max}
-driving_acceleration: {x: 8.10175 m/s^2}
-initial: {layer: none, composition: "GAS: 1", temperature: 300 K, formula: {velocity_x: "15.2*(y/0.05)^0.125"}}
-output: {boundaries: [wall]}
-)",
-                          overrides);
-  };
-  const auto run = [&](const char* name, const std::vector<std::string>& overrides, const char* from = nullptr) {
-    std::optional<std::filesystem::path> restart;
-    if (from != nullptr) restart = scratch.path() / from;
-    test::runFlow(deck(overrides), scratch.path() / name, restart);
-  };
-  run("found", {steady, "time.first_step=1 ms", "time.maximum_step=1 ms", "checkpoint.at_end=true"});
-  const Hdf5Reader found(scratch.path() / "found/results.h5");
-  const std::vector<double> velocity = lastOf(found, "velocity");
-  double bulk = 0.0;
-  for (std::size_t i = 0; i < velocity.size(); i += 3) bulk += velocity[i] / 30.0;
-  const double friction = std::sqrt(8.10175 * 0.05);
-  EXPECT_NEAR(bulk / friction - 0.1 * (1.0 - std::log(2.0)) / 0.41, 22.2784, 2e-4);
-  // The wall takes what drives the gas; the table has it face by face, and the cell's y+.
-  const double shear = lastOf(found, "density").front() * friction * friction;
-  EXPECT_NEAR(found.numbers("/walls/wall/friction_x").back() / shear, 1.0, 1e-6);
-  EXPECT_NEAR(found.numbers("/history/y_plus_max").back(), 100.15, 0.01);
-  EXPECT_NEAR(found.numbers("/walls/wall/y_plus").back(), 100.15, 0.01);
-  EXPECT_NEAR(found.numbers("/walls/wall/heat_flux").back(), 0.0, 1e-3);
-  EXPECT_LT(found.numbers("/history/iteration").back(), 300.0);
-  const std::vector<double> pressure = lastOf(found, "pressure"), isStatic = lastOf(found, "static_pressure"),
-                            energy = lastOf(found, "turbulent_kinetic_energy"), density = lastOf(found, "density");
-  for (std::size_t c = 0; c < pressure.size(); ++c)
-    EXPECT_NEAR(isStatic[c], pressure[c] - 2.0 / 3.0 * density[c] * energy[c], 1e-12 * density[c]);
-  // In time it stays as it is.
-  const double time = found.numbers("/history/time").back();
-  run("on", {"time.end=" + std::to_string(time + 0.1) + " s", "time.maximum_step=4 ms"}, "found");
-  const Hdf5Reader on(scratch.path() / "on/results.h5");
-  for (const char* field : {"velocity", "turbulent_kinetic_energy", "turbulent_dissipation", "eddy_viscosity"}) {
-    const std::vector<double> a = lastOf(found, field), b = lastOf(on, field);
-    const auto [low, high] = std::ranges::minmax(b);
-    for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-5 * (high - low)) << field << ' ' << i;
-  }
-}
-
-// The same by a k-omega model and both layers of the law of the wall at once, cells of y+ 100: the wall takes what
-// drives the gas, and the velocity beyond the first cell is that of resolved walls (cases/flow/turbulent_channel).
-TEST(SteadyModeLong, AModelOfOmegaMeetsWallsByBothLayers) {
-  const test::SharedScratchFolder scratch;
-  test::runFlow(test::flowDeck("perfect_gas_1.yaml", R"(
-transport:
-  model: unity_lewis
-  sutherland: {viscosity: 1.68e-5 Pa s, temperature: 273 K, constant: 110.5 K, prandtl_number: 0.71}
-turbulence: {model: sst, walls: automatic, eddy_viscosity_ratio: 30, energy: 0.8 m^2/s^2}
-mesh: {geometry: planar, x: [{to: 6 m, cells: 3}], y: [{to: 5 cm, cells: 10}]}
-boundaries:
-  left: {type: periodic, side: x-min}
-  right: {type: periodic, side: x-max}
-  wall: {type: wall, side: y-min, temperature: 300 K}
-  middle: {type: symmetry, side: y-max}
-driving_acceleration: {x: 8.10175 m/s^2}
-initial: {layer: none, composition: "GAS: 1", temperature: 300 K, formula: {velocity_x: "15.2*(y/0.05)^0.125"}}
-output: {boundaries: [wall]}
-)",
-                               {steady, "time.first_step=1 ms", "time.maximum_step=1 ms"}),
-                scratch.path() / "found");
-  const Hdf5Reader found(scratch.path() / "found/results.h5");
-  const std::vector<double> velocity = lastOf(found, "velocity");
-  const double friction = std::sqrt(8.10175 * 0.05), shear = lastOf(found, "density").front() * friction * friction;
-  EXPECT_NEAR(found.numbers("/walls/wall/friction_x").back() / shear, 1.0, 1e-6);
-  EXPECT_NEAR(found.numbers("/walls/wall/y_plus").back(), 100.15, 0.01);
-  // Of the table sst: half way to the middle, y+ 1001.5, between two cells' centres.
-  EXPECT_NEAR(0.5 * (velocity[3 * 12] + velocity[3 * 15]) / friction, 22.382, 0.015 * 22.382);
-}
-
 TEST(SteadyMode, WhereNothingIsFoundTheStateIsKeptToGoOnFrom) {
   const test::SharedScratchFolder scratch;
   const auto out = scratch.path() / "out";
@@ -217,8 +126,8 @@ TEST(SteadyMode, WhereNothingIsFoundTheStateIsKeptToGoOnFrom) {
 
 void expectSameRun(const std::filesystem::path& found, const std::filesystem::path& expected) {
   const Hdf5Reader a(found / "results.h5"), b(expected / "results.h5");
-  EXPECT_EQ(lastOf(a, "temperature"), lastOf(b, "temperature"));
-  EXPECT_EQ(lastOf(a, "velocity"), lastOf(b, "velocity"));
+  EXPECT_EQ(test::lastOf(a, "temperature"), test::lastOf(b, "temperature"));
+  EXPECT_EQ(test::lastOf(a, "velocity"), test::lastOf(b, "velocity"));
   for (const std::string& column : b.names("/history")) {
     const std::vector<double> one = a.numbers("/history/" + column), other = b.numbers("/history/" + column);
     ASSERT_EQ(one.size(), other.size()) << column;
@@ -254,7 +163,8 @@ TEST(SteadyMode, FollowsABranchAndKeepsTheStateThatWasFound) {
   const RunRecord followed = runChannel(scratch.path() / "branch", {steady, branch, boundaries});
   runChannel(scratch.path() / "alone", {steady, boundaries});
   const Hdf5Reader a(scratch.path() / "branch/results.h5"), b(scratch.path() / "alone/results.h5");
-  for (const char* field : {"temperature", "velocity", "viscosity"}) EXPECT_EQ(lastOf(a, field), lastOf(b, field));
+  for (const char* field : {"temperature", "velocity", "viscosity"})
+    EXPECT_EQ(test::lastOf(a, field), test::lastOf(b, field));
   const std::vector<double> load = a.numbers("/continuation/load"), residual = a.numbers("/continuation/residual");
   ASSERT_EQ(load.size(), 4U);
   EXPECT_EQ(load[0], 1.0);
@@ -274,7 +184,8 @@ TEST(SteadyMode, FollowsABranchAndKeepsTheStateThatWasFound) {
               1e-3);
   runChannel(scratch.path() / "second", {steady, "boundaries.in.velocity=36 cm/s"});
   const Hdf5Reader second(scratch.path() / "second/results.h5");
-  EXPECT_NEAR(a.numbers("/continuation/maximum_temperature")[1], std::ranges::max(lastOf(second, "temperature")), 1e-4);
+  EXPECT_NEAR(a.numbers("/continuation/maximum_temperature")[1], std::ranges::max(test::lastOf(second, "temperature")),
+              1e-4);
 }
 
 // Whose velocities and mass fluxes are round-off.
@@ -310,7 +221,7 @@ time: {mode: steady, steady: {steps: 40, residual: 1e-4}}
 TEST(SteadyMode, LightsAFlameThatTheStartHasNotLit) {
   const test::SharedScratchFolder scratch;
   const auto hottest = [&](const char* run) {
-    return std::ranges::max(lastOf(Hdf5Reader(scratch.path() / run / "results.h5"), "temperature"));
+    return std::ranges::max(test::lastOf(Hdf5Reader(scratch.path() / run / "results.h5"), "temperature"));
   };
   EXPECT_THAT(test::runFlow(hydrogenBesideAir({}), scratch.path() / "lit").resultsJson, HasSubstr("\"times_lit\": 1"));
   EXPECT_GT(hottest("lit"), 1200.0);
@@ -354,8 +265,8 @@ TEST(SteadyMode, StepsGoOnAfterAnAttemptAsWithoutIt) {
   const Hdf5Reader a(scratch.path() / "plain/results.h5"), b(scratch.path() / "failed/results.h5");
   EXPECT_EQ(inTime(a).front().size(), 49U);  // the first has none before it
   EXPECT_EQ(inTime(a), inTime(b));
-  EXPECT_EQ(lastOf(a, "temperature"), lastOf(b, "temperature"));
-  EXPECT_EQ(lastOf(a, "velocity"), lastOf(b, "velocity"));
+  EXPECT_EQ(test::lastOf(a, "temperature"), test::lastOf(b, "temperature"));
+  EXPECT_EQ(test::lastOf(a, "velocity"), test::lastOf(b, "velocity"));
   // One that does not fail.
   EXPECT_THAT(runChannel(scratch.path() / "early", with(1)).resultsJson,
               AllOf(HasSubstr("\"found_early\": true"), HasSubstr("\"steps_in_time\": 20,")));
@@ -382,7 +293,8 @@ TEST(SteadyMode, AnAttemptGoesOnFromACheckpoint) {
   const Hdf5Reader a(scratch.path() / "whole/results.h5.part"), b(scratch.path() / "on/results.h5.part");
   EXPECT_EQ(a.numbers("/history/iteration").back(), 8.0);
   EXPECT_EQ(a.names("/steps"), b.names("/steps"));
-  for (const char* field : {"temperature", "velocity", "pressure"}) EXPECT_EQ(lastOf(a, field), lastOf(b, field));
+  for (const char* field : {"temperature", "velocity", "pressure"})
+    EXPECT_EQ(test::lastOf(a, field), test::lastOf(b, field));
   EXPECT_EQ(inTime(a), inTime(b));
 }
 
@@ -398,7 +310,7 @@ TEST(SteadyMode, ColdGasIsDrawnIntoHot) {
                   "{velocity: '-0.3'}}"});
   EXPECT_THAT(found.resultsJson, AllOf(HasSubstr("\"steady\": true"), HasSubstr("\"found_early\": true")));
   const Hdf5Reader results(scratch.path() / "found/results.h5");
-  EXPECT_LT(std::ranges::min(lastOf(results, "temperature")), 500.0);
+  EXPECT_LT(std::ranges::min(test::lastOf(results, "temperature")), 500.0);
 }
 
 struct Refused {
