@@ -6,6 +6,8 @@
 #include "flow/discretisation/limiter.hpp"
 #include "flow/discretisation/neighbour_bounds.hpp"
 #include "flow/equations/face_state.hpp"
+#include "flow/equations/momentum_forces.hpp"
+#include "flow/equations/pressure_force.hpp"
 #include "flow/stepping/finite_state.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
@@ -91,6 +93,109 @@ TEST(FaceStateOnSkewedCells, StaysWithinTheCellsAround) {
         EXPECT_LE(faces.temperature[at(face)], 900.0 + 1e-10);
       }
   }
+}
+
+// Owned cells whose faces are all inside, their centres in reach of the steps, with neighbours of which the same is true
+// but for the reach: no boundary has a part in what acts on them.
+std::vector<int> cellsWithin(const Mesh& m) {
+  const auto all = [&](int c, const auto& holds) {
+    for (int i = m.faceStart[at(c)]; i < m.faceStart[at(c) + 1]; ++i)
+      if (!holds(m.faceOfCell[at(i)])) return false;
+    return true;
+  };
+  const auto isInside = [&](int face) { return m.high[at(face)] >= 0; };
+  const auto isSurrounded = [&](int face) {
+    for (const int c : {m.low[at(face)], m.high[at(face)]})
+      if (c >= m.owned || !all(c, isInside)) return false;
+    return isCentreInReach(m, face);
+  };
+  std::vector<int> cells;
+  for (int c = 0; c < m.owned; ++c)
+    if (all(c, isInside) && all(c, isSurrounded)) cells.push_back(c);
+  return cells;
+}
+
+const std::array skewedKinds{Cells::Quadrilaterals, Cells::Triangles, Cells::MixedPlane, Cells::Tetrahedra};
+
+// The pressures at the faces' centres of an even slope push each cell by that slope.
+TEST(PressureForceOnSkewedCells, EvenSlopesAreFoundAsTheyAre) {
+  const Vector3 slope{3.0, -2.0, 5.0};
+  for (const Cells cells : skewedKinds) {
+    Box box = skewedBox(cells);
+    const Mesh& m = box.mesh;
+    const int d = m.dimension;
+    std::vector<double> pressure, boundary, gradient(at(m.cells * d));
+    for (const Vector3& centre : m.centre) pressure.push_back(dot(slope, centre));
+    for (int face = m.interiorFaces; face < m.faces; ++face)
+      boundary.push_back(dot(slope, sum(m.centre[at(m.low[at(face)])], m.step[at(face)])));
+    const std::vector<BoundaryData> known(boundary.size(), BoundaryData::Value);
+    PressureForce force(box.context, known);
+    force.compute(pressure, boundary, gradient);
+    for (const int c : cellsWithin(m))
+      for (int i = 0; i < d; ++i) EXPECT_NEAR(gradient[at(d * c + i)], slope[at(i)], 1e-9) << static_cast<int>(cells);
+  }
+}
+
+// What an even stream carries of velocities: of even slopes as much as there is at the faces' centres, which leaves the
+// stream times the slopes in each cell; of others what lies on a parabola through both cells' values, and beyond it
+// along the slope.
+TEST(MomentumForcesOnSkewedCells, ConvectedVelocitiesAreThoseAtTheFacesCentres) {
+  constexpr double sharp = 4e2;
+  const Vector3 stream{0.3, -0.2, 0.1};
+  const std::array<Vector3, 3> slopes{{{30.0, -20.0, 10.0}, {5.0, 40.0, -25.0}, {-15.0, 10.0, 35.0}}};
+  double seen = 0.0;
+  for (const Cells cells : skewedKinds)
+    for (const double bend : {0.0, sharp}) {
+      Box box = skewedBox(cells);
+      const Mesh& m = box.mesh;
+      const int d = m.dimension;
+      const auto n2 = box.gas.massFractions("N2: 1");
+      State state = box.state([&](const Vector3& x) {
+        Vector3 velocity{};
+        for (int i = 0; i < d; ++i)
+          velocity[at(i)] = dot(slopes[at(i)], x) + bend * slopes[at(i)][0] * x[at((i + 1) % d)] * x[at(i)];
+        return Box::Local{velocity, 300.0, n2};
+      });
+      const double density = state.density[0];
+      for (int face = 0; face < m.interiorFaces; ++face)
+        state.massFlux[at(face)] = density * m.area[at(face)] * dot(m.normal[at(face)], stream);
+      const std::vector<double> none(at(m.cells)), noneOutside(at(m.boundaryFaces()));
+      MomentumForces forces(box.context, false, VelocityScheme::Limited);
+      std::vector<double> momentum(at(m.owned * d));
+      forces.rates(state, {state, state, none, noneOutside, {}, 0.0}, momentum, {});
+      VelocityGradient gradient(box.context);
+      gradient.setBoundary(state.velocity);
+      gradient.compute(state.velocity);
+      const auto carried = [&](int face, int i) {
+        const auto f = at(face);
+        const bool fromLow = state.massFlux[f] >= 0.0;
+        const int up = fromLow ? m.low[f] : m.high[f], down = fromLow ? m.high[f] : m.low[f];
+        const Vector3 step = scaled(m.step[f], fromLow ? 1.0 : -1.0);
+        const double share = fromLow ? 1.0 - m.lowWeight[f] : m.lowWeight[f];
+        const double own = state.velocity[at(d * up + i)], rise = state.velocity[at(d * down + i)] - own;
+        double along = 0.0, beside = 0.0;
+        for (int j = 0; j < d; ++j) {
+          along += step[at(j)] * gradient.of(up, i)[j];
+          beside += m.offset[f][at(j)] * gradient.of(up, i)[j];
+        }
+        return own + share * along + share * share * (rise - along) + beside;
+      };
+      for (const int c : cellsWithin(m))
+        for (int i = 0; i < d; ++i) {
+          double expected = 0.0;
+          for (int j = m.faceStart[at(c)]; j < m.faceStart[at(c) + 1] && bend > 0.0; ++j) {
+            const int face = m.faceOfCell[at(j)];
+            const double out = m.low[at(face)] == c ? state.massFlux[at(face)] : -state.massFlux[at(face)];
+            expected -= out * (carried(face, i) - state.velocity[at(d * c + i)]);
+          }
+          for (int j = 0; j < d && bend == 0.0; ++j)
+            expected -= density * m.volume[at(c)] * stream[at(j)] * slopes[at(i)][at(j)];
+          const double size = density * m.volume[at(c)] * length(stream) * length(slopes[at(i)]);
+          EXPECT_NEAR(momentum[at(d * c + i)] / size, expected / size, 1e-9) << static_cast<int>(cells) << ", " << bend;
+          seen += 1.0;
+        }
+    }
+  EXPECT_GT(sumOverRanks(seen), 200.0);
 }
 
 TEST(FiniteState, LooksAtAllThreeComponentsAndSaysWhere) {
