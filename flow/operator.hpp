@@ -74,6 +74,9 @@ class Operator {
   // this state alone. `rates` has the sizes of State::balance. For operators that change the state by means other than
   // transport.
   virtual void addRates(const State&, State::Balance& /*rates*/) {}
+  // The same of what is carried, where nothing else has changed since addRates() was asked: what of it is source and
+  // what sink may be told in another way, and no slopes are asked of it.
+  virtual void addRatesOfCarried(const State& state, State::Balance& rates) { addRates(state, rates); }
   // Whether addRates() makes or takes any of what is carried: where the gas rests, only such an operator is asked.
   [[nodiscard]] virtual bool actsOnCarried() const { return false; }
   // Derivatives of what addRates() adds in the owned cells, a dense matrix a cell, one behind the other, column-major.

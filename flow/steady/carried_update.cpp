@@ -171,7 +171,7 @@ void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
     for (int c = 0; c < context_.mesh.owned; ++c) take(state, c);
     if (halvings == mostHalvings) break;
     made_.clear();
-    for (Operator* op : operators_) op->addRates(state, made_);
+    for (Operator* op : operators_) op->addRatesOfCarried(state, made_);
     less = 0;
     for (std::size_t c = 0; c < owned; ++c)
       if (!(leftOf(state, static_cast<int>(c), shares_[c]) <= (1.0 - leastGain * shares_[c]) * before[c])) {

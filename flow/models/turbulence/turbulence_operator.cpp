@@ -99,7 +99,7 @@ void TurbulenceOperator::setStart(State& state, const FreeStream& start, std::sp
 
 void TurbulenceOperator::advance(State& state, double, double dt) {
   constexpr double longest = 4.0;
-  evaluate(state);
+  evaluate(state, Tangents::Unused);
   for (std::size_t c = 0; c < rates_.size(); ++c) {
     const double share = 1.0 / (1.0 + std::min(cells_[c].strain * dt, longest));
     double& eddies = state.eddyViscosity[c];
@@ -147,17 +147,12 @@ void TurbulenceOperator::findShear() {
   }
 }
 
-void TurbulenceOperator::evaluate(const State& state) {
+// What velocities and densities tell of the cells.
+void TurbulenceOperator::findFlow(const State& state) {
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(m.dimension);
-  const std::size_t n = state.scalars.size();
   velocityGradient_.setBoundary(state.velocity);
   velocityGradient_.compute(state.velocity);
-  for (std::size_t c = 0; c < state.density.size(); ++c)
-    for (std::size_t v = 0; v < count_; ++v)
-      values_[c * count_ + v] = state.carried[c * n + first_ + v] / state.density[c];
-  gradient_.compute(values_, boundaryValues_, static_cast<int>(count_), valueGradient_, known_);
-  if (count_ == 2) gradient_.beyond(values_, boundaryValues_, valueGradient_, known_, mostRise, beyond_);
   gradient_.compute(state.density, boundaryStrain_, 1, densityGradient_, knownDensity_);
   std::copy_n(state.density.begin(), cells_.size(), density_.begin());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -165,21 +160,39 @@ void TurbulenceOperator::evaluate(const State& state) {
     cell.dilatation = velocityGradient_.dilatation(static_cast<int>(c), state.velocity);
     cell.viscosity = properties_.viscosity[c] / state.density[c];
     if (model_->needsWallDistance()) cell.distance = context_.wallDistance[c];
+    for (std::size_t i = 0; i < d; ++i) cell.densityGradient[i] = densityGradient_[c * d + i] / state.density[c];
+  }
+  findShear();
+  if (model_->needsStrainGradient()) addStrainGradient(state);
+}
+
+// What the model's own variables tell of the cells, and its rates.
+void TurbulenceOperator::findRates(const State& state) {
+  const auto d = static_cast<std::size_t>(context_.mesh.dimension);
+  const std::size_t n = state.scalars.size();
+  for (std::size_t c = 0; c < state.density.size(); ++c)
+    for (std::size_t v = 0; v < count_; ++v)
+      values_[c * count_ + v] = state.carried[c * n + first_ + v] / state.density[c];
+  gradient_.compute(values_, boundaryValues_, static_cast<int>(count_), valueGradient_, known_);
+  if (count_ == 2) gradient_.beyond(values_, boundaryValues_, valueGradient_, known_, mostRise, beyond_);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    TurbulentCell& cell = cells_[c];
     std::copy_n(&values_[c * count_], count_, cell.values.begin());
     if (count_ == 2) {
       cell.productBeyond = beyond_[c].product;
       cell.squareBeyond = beyond_[c].square;
     }
-    for (std::size_t i = 0; i < d; ++i) {
-      for (std::size_t v = 0; v < count_; ++v) cell.gradients[v][i] = valueGradient_[(c * count_ + v) * d + i];
-      cell.densityGradient[i] = densityGradient_[c * d + i] / state.density[c];
-    }
+    for (std::size_t v = 0; v < count_; ++v)
+      for (std::size_t i = 0; i < d; ++i) cell.gradients[v][i] = valueGradient_[(c * count_ + v) * d + i];
   }
-  findShear();
-  if (model_->needsStrainGradient()) addStrainGradient(state);
   if (model_->usesWallLaw()) findWallLaw(state);
   model_->evaluate(cells_, rates_);
-  linearise();
+}
+
+void TurbulenceOperator::evaluate(const State& state, Tangents tangents) {
+  findFlow(state);
+  findRates(state);
+  if (tangents == Tangents::Wanted) linearise();
   if (model_->usesWallLaw()) applyWallLaw();
 }
 
@@ -222,7 +235,13 @@ void TurbulenceOperator::add(const State& state, State::Balance& rates) const {
 }
 
 void TurbulenceOperator::addRates(const State& state, State::Balance& rates) {
-  evaluate(state);
+  evaluate(state, Tangents::Wanted);
+  add(state, rates);
+}
+
+void TurbulenceOperator::addRatesOfCarried(const State& state, State::Balance& rates) {
+  findRates(state);
+  if (model_->usesWallLaw()) applyWallLaw();
   add(state, rates);
 }
 
@@ -244,7 +263,7 @@ void TurbulenceOperator::storeDiffusivities(State& state) const {
 }
 
 void TurbulenceOperator::endSweep(State& state) {
-  evaluate(state);
+  evaluate(state, Tangents::Wanted);
   add(state, state.balance);
   storeDiffusivities(state);
   context_.halo.update(state.carriedDiffusivity, static_cast<int>(state.scalars.size()));
@@ -252,7 +271,7 @@ void TurbulenceOperator::endSweep(State& state) {
 
 void TurbulenceOperator::setDiffusivities(State& state) {
   state.updateHalo(context_.halo);
-  evaluate(state);
+  evaluate(state, Tangents::Unused);
   storeDiffusivities(state);
   for (std::size_t c = 0; c < rates_.size(); ++c) state.eddyViscosity[c] = state.density[c] * rates_[c].eddyViscosity;
 }

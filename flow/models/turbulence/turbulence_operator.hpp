@@ -45,6 +45,7 @@ class TurbulenceOperator : public Operator {
   void advance(State& state, double time, double dt) override;
   void endSweep(State& state) override;
   void addRates(const State& state, State::Balance& rates) override;
+  void addRatesOfCarried(const State& state, State::Balance& rates) override;
   // Of the state that addRates() was asked of last: those of rates by other variables, and sinks.
   void addSlopes(const State& state, const Slopes& slopes) override;
   void addCarriedFlow(std::span<double> flow) override;
@@ -67,7 +68,11 @@ class TurbulenceOperator : public Operator {
   [[nodiscard]] WallState atWall(int face, const State& state) const;
 
  private:
-  void evaluate(const State& state);
+  // Of rates by the variables: they become sinks, which steps and iterations take implicitly.
+  enum class Tangents { Wanted, Unused };
+  void evaluate(const State& state, Tangents tangents);
+  void findFlow(const State& state);
+  void findRates(const State& state);
   void linearise();
   void findLayers();
   void findWallLaw(const State& state);
