@@ -150,6 +150,7 @@ std::vector<double> FlowDomain::carriedThroughFaces(const CarriedModel& model, d
 
 void FlowDomain::adopt(const FlowCase& flowCase) {
   flow.adopt(state);
+  if (radiation) radiation->endStep(state);
   if (deposition && carried) deposition->setRate(carriedThroughFaces(*flowCase.carried, 1.0));
 }
 

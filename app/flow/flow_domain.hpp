@@ -34,7 +34,7 @@ struct FlowDomain {
   void beginBudget(const FlowCase& flowCase);
   // After the gas has been replaced by another: face flows, rates and budgets as at a start.
   void beginAnew(const FlowCase& flowCase);
-  // Collective. What transport tells becomes that of the state, to which no step has led.
+  // Collective. What transport and radiation tell becomes that of the state, to which no step has led.
   void adopt(const FlowCase& flowCase);
   // kg per metre depth or radian that each boundary face lets out of what the case's model carries, in the last step.
   [[nodiscard]] std::vector<double> carriedThroughFaces(const CarriedModel& model, double dt) const;

@@ -27,6 +27,7 @@
 #include "core/timers.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/peak.hpp"
+#include "flow/steady/flame_steepness.hpp"
 #include "flow/steady/flow_branch.hpp"
 #include "flow/steady/leading_modes.hpp"
 #include "flow/steady/residual_norms.hpp"
@@ -192,7 +193,9 @@ class FlowLoop {
   // Collective. By equation; nothing where an operator is stochastic, whose rates are those of single events, nor, with
   // a warning, where the gas has no properties or rates.
   [[nodiscard]] std::vector<ResidualNorm> residualNow();
-  [[nodiscard]] std::string steadyJson(const std::vector<ResidualNorm>& residual) const;  // the same for the record
+  // The same for the record.
+  [[nodiscard]] std::string steadyJson(const std::vector<ResidualNorm>& residual,
+                                       const std::optional<flow::FlameSteepness>& flame) const;
 
   // All that the next step, its outputs and the report depend on.
   void saveOrLoad(StateArchive& archive, std::vector<double>& history);

@@ -14,7 +14,6 @@
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "core/wall_clock.hpp"
-#include "flow/steady/flame_steepness.hpp"
 #include "io/json.hpp"
 #include "io/report.hpp"
 
@@ -175,7 +174,8 @@ std::vector<ResidualNorm> FlowLoop::residualNow() {
 }
 
 // One object; null where it is not known.
-std::string FlowLoop::steadyJson(const std::vector<ResidualNorm>& residual) const {
+std::string FlowLoop::steadyJson(const std::vector<ResidualNorm>& residual,
+                                 const std::optional<flow::FlameSteepness>& flame) const {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
   const auto whole = [&](Steadiness::Norm norm) {
     const auto change = steadiness_.change(norm);
@@ -190,7 +190,10 @@ std::string FlowLoop::steadyJson(const std::vector<ResidualNorm>& residual) cons
   json.key("residual").beginObject();
   for (const ResidualNorm& norm : residual) json.field(norm.equation.c_str(), norm.value);
   json.endObject();
-  if (search_) addSearch(json);
+  if (search_) {
+    json.field("flame_cells", flame ? flame->cells : unknown);
+    addSearch(json);
+  }
   addStability(json);
   addBranch(json);
   json.endObject();
@@ -230,12 +233,20 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
     if (const auto imbalance = op->imbalance())
       closing.imbalances.push_back({op->name(), imbalance->before, imbalance->after});
   count(record);
-  if (holder() == nullptr) record.resultsJson = steadyJson(residual);
   const auto steepness = flow::flameSteepness(domain_->context, domain_->state);
+  if (holder() == nullptr) record.resultsJson = steadyJson(residual, steepness);
   if (search_ && !steepness && case_.mechanism->numReactions() > 0)
     printWarnings(
         {"nothing burns in the steady state that was found: a flame that has gone out, or was never lit, is "
          "steady too"});
+  if (search_ && steepness && steepness->cells < flow::FlameSteepness::fewCells)
+    printWarnings({fmt::format(
+        "the flame has {:.1f} cells from cold to hot at {}: a premixed flame, or the foot of another, so thin stands "
+        "in "
+        "one of several rows of cells, all of them steady on this mesh, and the start decides in which; cells there of "
+        "{:.2g} of their size (mesh) are small enough",
+        steepness->cells, placeText(steepness->place, domain_->mesh.dimension),
+        steepness->cells / flow::FlameSteepness::fewCells)});
   if (domain_->mesh.rank != 0) return;
   std::cout << formatReport(closing);
   for (const std::string& line : quality_.lines()) fmt::print("{}\n", line);

@@ -12,7 +12,6 @@
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
 #include "core/system_error.hpp"
-#include "flow/steady/flame_steepness.hpp"
 #include "io/json.hpp"
 
 namespace lampblack::app {

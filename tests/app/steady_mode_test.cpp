@@ -6,15 +6,18 @@
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "flow/models/radiation.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/flow_runs.hpp"
 #include "tests/core/mpi_support.hpp"
 #include "tests/shared_scratch.hpp"
+#include "tests/source_folder.hpp"
 
 namespace lampblack::app {
 namespace {
 
 using testing::AllOf;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 // Warm gas into a channel with a cold wall.
@@ -218,15 +221,38 @@ time: {mode: steady, steady: {steps: 40, residual: 1e-4}}
                         overrides);
 }
 
+// Field and history tell what the state that was found radiates, not the last step in time.
+void expectRadiationOfItsState(const std::filesystem::path& run) {
+  const Hdf5Reader results(run / "results.h5");
+  const Mechanism mechanism = Mechanism::fromFile(test::sourcePath("cases/mechanisms/hydrogen_h2o2_10.yaml"));
+  const ThinRadiation radiation(mechanism, 320.0);
+  const std::vector<double> T = test::lastOf(results, "temperature"), water = test::lastOf(results, "X_H2O"),
+                            loss = test::lastOf(results, "radiation_loss");
+  std::vector<double> X(mechanism.numSpecies(), 0.0);
+  double power = 0.0;  // W/m, on even cells
+  for (std::size_t c = 0; c < T.size(); ++c) {
+    X[mechanism.speciesIndex("H2O")] = water[c];
+    const double expected = radiation.loss(radiation.absorption(T[c], 101325.0, X), T[c]);
+    EXPECT_NEAR(loss[c], expected, 1e-9 * std::abs(expected)) << c;
+    power += 8e-3 * 12e-3 / 64.0 * expected;
+  }
+  EXPECT_NEAR(results.numbers("/history/radiated_power").back(), power, 1e-9 * power);
+}
+
 TEST(SteadyMode, LightsAFlameThatTheStartHasNotLit) {
   const test::SharedScratchFolder scratch;
   const auto hottest = [&](const char* run) {
     return std::ranges::max(test::lastOf(Hdf5Reader(scratch.path() / run / "results.h5"), "temperature"));
   };
-  EXPECT_THAT(test::runFlow(hydrogenBesideAir({}), scratch.path() / "lit").resultsJson, HasSubstr("\"times_lit\": 1"));
+  EXPECT_THAT(test::runFlow(
+                  hydrogenBesideAir({"radiation={model: optically_thin, surroundings: 320 K}", "output.species=[all]"}),
+                  scratch.path() / "lit")
+                  .resultsJson,
+              AllOf(HasSubstr("\"times_lit\": 1"), ContainsRegex("\"flame_cells\": [1-9]")));
   EXPECT_GT(hottest("lit"), 1200.0);
+  expectRadiationOfItsState(scratch.path() / "lit");
   EXPECT_THAT(test::runFlow(hydrogenBesideAir({"time.steady.light=false"}), scratch.path() / "dark").resultsJson,
-              HasSubstr("\"times_lit\": 0"));
+              AllOf(HasSubstr("\"times_lit\": 0"), HasSubstr("\"flame_cells\": null")));
   EXPECT_LT(hottest("dark"), 310.0);
   // A start without anything hot asks for no flame.
   EXPECT_THAT(
