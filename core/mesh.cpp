@@ -165,6 +165,7 @@ class MeshBuilder {
     for (auto* vectors : {&m.faceCentre, &m.normal, &m.step}) vectors->reserve(at(m.faces));
     for (auto* numbers : {&m.area, &m.distance, &m.lowWeight}) numbers->reserve(at(m.faces));
     if (m.axisymmetric()) m.planarLength.reserve(at(m.faces));
+    m.betweenOpposite.assign(at(m.faces), 0);
     for (int face = 0; face < m.faces; ++face) {
       const SideMeasures side = measure(m.low[at(face)], m.lowSide[at(face)]);
       m.faceCentre.push_back(side.centre);
@@ -181,6 +182,8 @@ class MeshBuilder {
         const Vector3 toCentre = difference(m.centre[at(high)], there);
         toHigh = dot(toCentre, side.normal);
         step = sum(step, toCentre);
+        if (hasOppositeSides(of(m.low[at(face)]).shape()) && hasOppositeSides(of(high).shape()))
+          m.betweenOpposite[at(face)] = 1;
       }
       m.step.push_back(step);
       m.distance.push_back(toLow + toHigh);
@@ -206,7 +209,10 @@ class MeshBuilder {
     m.facesBeyond = std::llround(beyond);
     // Most meshes have neither, so that they are found twice rather than kept in vain.
     if (largest[0] > 0.0) m.oblique.reserve(at(m.faces));
-    if (largest[1] > 0.0) m.offset.reserve(at(m.faces));
+    if (largest[1] > 0.0)
+      m.offset.reserve(at(m.faces));
+    else
+      m.betweenOpposite = {};
     for (std::size_t face = 0; face < at(m.faces); ++face) {
       if (largest[0] == 0.0 && largest[1] == 0.0) break;
       const auto [oblique, offset] = deviationsAt(face);

@@ -75,6 +75,8 @@ class Mesh {
   // fluxes and values that go by the two cells alone. Empty otherwise.
   std::vector<Vector3> oblique;  // normal - step/distance, of length tan(angle), at most mostOblique
   std::vector<Vector3> offset;   // m, from where the step meets the face to its centre
+  std::vector<char>
+      betweenOpposite;  // with `offset`: whether both cells have opposite sides, so that they may be of layers
   // 76 degrees. What is cut is missing from the fluxes on any number of cells: a flame on triangles at 74 degrees, cut
   // at 60, was as wrong on fine cells as on coarse ones.
   static constexpr double mostOblique = 4.0;

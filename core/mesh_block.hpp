@@ -23,6 +23,10 @@ struct CellSide {
 };
 
 int cornersOf(CellShape shape);
+// Whether each side has one across the cell that shares no corner with it.
+constexpr bool hasOppositeSides(CellShape shape) {
+  return shape == CellShape::Quadrilateral || shape == CellShape::Hexahedron;
+}
 std::span<const CellSide> sidesOf(CellShape shape);
 const char* nameOf(CellShape shape);
 

@@ -32,7 +32,7 @@ bool shareCorners(const CellSide& a, const CellSide& b) {
 bool pairedSlopes(const Mesh& m, int cell, std::span<Vector3> weight) {
   const auto c = static_cast<std::size_t>(cell);
   const CellShape shape = m.shape[c];
-  if ((shape != CellShape::Quadrilateral && shape != CellShape::Hexahedron) || !isBent(m, cell)) return false;
+  if (!hasOppositeSides(shape) || !isBent(m, cell)) return false;
   const int count = m.faceStart[c + 1] - m.faceStart[c];
   const auto at = [&](int i) {
     return static_cast<std::size_t>(m.faceOfCell[static_cast<std::size_t>(m.faceStart[c] + i)]);

@@ -82,15 +82,18 @@ inline double faceSlope(const Mesh& m, int face, const Vector3& direction, std::
 
 // Whether a skewed mesh's interior face has its centre so near the place where the step meets it that slopes lead
 // there: within its own size. Thin cells around a bend are missed by many times their height; there the face belongs to
-// the layer of both cells, whose values tell its own, and slopes across the layers tell nothing of it.
+// the layer of both cells, whose values tell its own, and slopes across the layers tell nothing of it. Triangles,
+// tetrahedra, prisms and pyramids are of no layers.
 inline bool isCentreInReach(const Mesh& m, int face) {
+  if (m.betweenOpposite[face] == 0) return true;
   const double size = m.size(face);
   return dot(m.offset[face], m.offset[face]) <= (m.dimension == 3 ? size : size * size);
 }
 
 // What a field is more at an interior face's centre than its linear interpolation between the two cells: along
-// Mesh::offset, and by its curvature along the step, from both cells' gradients. On bent cells the two are alike and
-// opposite: along a layer a field is as good as even, along the bend's chord it is not.
+// Mesh::offset, and between cells with opposite sides by its curvature along the step, from both cells' gradients. On
+// bent cells the two are alike and opposite: along a layer a field is as good as even, along the bend's chord it is
+// not. On tetrahedra the curvature has nothing to cancel, and velocities that have it grow without end.
 inline double riseToCentre(const Mesh& m, int face, std::span<const double> gradient, int components = 1,
                            int component = 0) {
   if (!isCentreInReach(m, face)) return 0.0;
@@ -99,6 +102,7 @@ inline double riseToCentre(const Mesh& m, int face, std::span<const double> grad
   const double* ofLow = &gradient[static_cast<std::size_t>(m.low[face] * components + component) * d];
   const double* ofHigh = &gradient[static_cast<std::size_t>(m.high[face] * components + component) * d];
   double rise = faceSlope(m, face, m.offset[face], gradient, components, component);
+  if (m.betweenOpposite[face] == 0) return rise;
   for (int i = 0; i < d; ++i) rise += 0.5 * w * (1.0 - w) * m.step[face][i] * (ofLow[i] - ofHigh[i]);
   return rise;
 }

@@ -17,7 +17,7 @@ FaceVelocity::FaceVelocity(const FlowContext& context)
   normalWeight_.resize(static_cast<std::size_t>(m.faceStart[m.owned]));
   for (int c = 0; c < m.owned; ++c) {
     // Of other shapes' faces there are too few: next to nothing is left of what they have not in common.
-    if (m.shape[c] != CellShape::Quadrilateral && m.shape[c] != CellShape::Hexahedron) continue;
+    if (!hasOppositeSides(m.shape[c])) continue;
     LeastSquares squares;
     for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i)
       if (m.high[m.faceOfCell[i]] >= 0) squares.add(m.normal[m.faceOfCell[i]]);

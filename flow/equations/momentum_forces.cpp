@@ -98,14 +98,16 @@ double MomentumForces::carriedVelocity(int face, double flux, int component, std
     const bool isLed = m.isSkewed() && isCentreInReach(m, face);
     return isLed ? value + faceSlope(m, face, m.offset[face], gradient_.values(), d, component) : value;
   }
-  // Curvatures are no measure of smoothness on cells without order: along the slope, and where steps miss the faces'
-  // centres along the parabola through both values (riseToCentre says why).
-  if (m.isSkewed()) {
+  // Curvatures are no measure of smoothness on cells without order: along the slope, and where steps between cells with
+  // opposite sides miss the faces' centres along the parabola through both values (riseToCentre says why).
+  if (m.isSkewed() && m.betweenOpposite[face] != 0) {
     const double share = u.toFace / u.ahead, linear = up + share * (down - up);
     if (!isCentreInReach(m, face)) return linear;
     return linear + (1.0 - share) * (u.toFace * slope - share * (down - up)) + slopeAlong(m.offset[face], ofUp, d);
   }
-  return m.isOblique() ? up + u.toFace * slope : smoothFaceValue(up, down, slope, slopeBeyond, u);
+  const double value =
+      m.isOblique() || m.isSkewed() ? up + u.toFace * slope : smoothFaceValue(up, down, slope, slopeBeyond, u);
+  return m.isSkewed() ? value + slopeAlong(m.offset[face], ofUp, d) : value;
 }
 
 // Convection in advective form, of the difference to the cell's own velocity, and implicit viscosity.
