@@ -241,10 +241,9 @@ void FlowLoop::report(double wallTime, RunRecord& record) {
          "steady too"});
   if (search_ && steepness && steepness->cells < flow::FlameSteepness::fewCells)
     printWarnings({fmt::format(
-        "the flame has {:.1f} cells from cold to hot at {}: a premixed flame, or the foot of another, so thin stands "
-        "in "
-        "one of several rows of cells, all of them steady on this mesh, and the start decides in which; cells there of "
-        "{:.2g} of their size (mesh) are small enough",
+        "the flame has {:.1f} cells from cold to hot at {}: so thin a premixed flame, or foot of a flame, may stand in "
+        "one row of cells or in another, each a steady state of this mesh, as the start decides; cells there of {:.2g} "
+        "of their size (mesh) are small enough",
         steepness->cells, placeText(steepness->place, domain_->mesh.dimension),
         steepness->cells / flow::FlameSteepness::fewCells)});
   if (domain_->mesh.rank != 0) return;
