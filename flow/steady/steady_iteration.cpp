@@ -20,11 +20,8 @@ constexpr double toleratedFirst = 100.0, tolerated = 4.0;
 constexpr double forgets = 2.0;  // growth with which the earlier iterations are of no use
 // Velocities and pressure, which cost little beside a gas of many species, are changed so many times in an iteration.
 constexpr int flowPasses = 3;
-// So is what is carried, which in a gas that rests moves on by a cell each time; but not the variables of a model of
-// turbulence, which move the gas in turn and would run ahead of it.
-int carriedPasses(const State& state) {
-  return state.hasEddies && state.blocks.size() == 1 ? 1 : 3;
-}
+// So is what is carried, which in a gas that rests moves on by a cell each time.
+constexpr int carriedPasses = 3;
 // Of what is carried, at most: where particles burn in a few cells their number and mass have to go together, and do
 // not where an iteration has them pass more than a cell.
 constexpr double mostCarriedCourant = 1.0;
@@ -222,7 +219,7 @@ void SteadyIteration::accelerate(State& state) {
 void SteadyIteration::advanceCarried(State& state) {
   const double slower = courant_ / std::min(courant_, mostCarriedCourant);
   for (std::size_t c = 0; c < inertia_.size(); ++c) carriedInertia_[c] = slower * inertia_[c];
-  for (int pass = 0; pass < carriedPasses(state); ++pass) {
+  for (int pass = 0; pass < carriedPasses; ++pass) {
     residual_.evaluateCarried(state);
     carried_->advance(state, residual_, carriedInertia_);
   }

@@ -12,6 +12,8 @@ namespace {
 
 // Steps in time: at least so many, doubled with each return, and at most some times that.
 constexpr int leastSteps = 50, mostSteps = 6;
+// In a gas without reactions at first: it has no flame to catch, and iterations bring it nearer than steps.
+constexpr int firstStepsWithoutReactions = 10;
 // A flow is established once the heat released has changed by less than a share over so many steps, none of which was
 // tried again.
 constexpr int quietSteps = 20;
@@ -36,13 +38,19 @@ bool SteadySearch::wantsResidual() const {
   return phase_ == Phase::Iterations || stepsNow_ % stepsPerResidual == 0;
 }
 
+int SteadySearch::leastStepsNow() const {
+  if (options_.steps > 0) return options_.steps << std::min(returns_, 10);
+  if (options_.reacts) return leastSteps << std::min(returns_, 10);
+  return returns_ == 0 ? firstStepsWithoutReactions : leastSteps << std::min(returns_ - 1, 10);
+}
+
 bool SteadySearch::isEstablished() const {
-  const int least = (options_.steps > 0 ? options_.steps : leastSteps) << std::min(returns_, 10);
+  const int least = leastStepsNow();
   if (stepsNow_ < least) return false;
   if (options_.steps > 0) return true;
   if (stepsNow_ >= mostSteps * least) return true;
   const auto [low, high] = std::ranges::minmax(heat_);
-  return undisturbed_ >= quietSteps && high - low <= quietHeat * std::max(std::abs(low), std::abs(high));
+  return undisturbed_ >= std::min(quietSteps, least) && high - low <= quietHeat * std::max(std::abs(low), std::abs(high));
 }
 
 bool SteadySearch::isAttemptDue() const {

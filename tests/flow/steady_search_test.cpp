@@ -55,6 +55,16 @@ TEST(SteadySearch, IteratesOnceTheHeatReleaseIsQuiet) {
   asked.endIterations("");
   EXPECT_EQ(steps(asked), 40);
 
+  // Without reactions there is no heat to wait for; what fails then is like any other flow.
+  SteadySearch inert({.reacts = false});
+  EXPECT_EQ(steps(inert, 0.0), 10);
+  inert.endIterations("");
+  EXPECT_EQ(steps(inert, 0.0), 50);
+  inert.endIterations("");
+  EXPECT_EQ(steps(inert, 0.0), 100);
+  SteadySearch asInert({.steps = 20, .reacts = false});
+  EXPECT_EQ(steps(asInert, 0.0), 20);
+
   // What was more than 20 steps ago does not count.
   SteadySearch lit({});
   steps(lit, 10.0, 30);
