@@ -12,8 +12,10 @@ namespace {
 
 // Steps in time: at least so many, doubled with each return, and at most some times that.
 constexpr int leastSteps = 50, mostSteps = 6;
-// In a gas without reactions at first: it has no flame to catch, and iterations bring it nearer than steps.
-constexpr int firstStepsWithoutReactions = 10;
+// In a gas without reactions, which has no flame to catch, so many are enough where no equation lacks more than that of
+// its throughflow: iterations bring the flow nearer than steps. From further away they take more.
+constexpr int stepsIfNear = 10;
+constexpr double near = 0.2;
 // A flow is established once the heat released has changed by less than a share over so many steps, none of which was
 // tried again.
 constexpr int quietSteps = 20;
@@ -38,19 +40,19 @@ bool SteadySearch::wantsResidual() const {
   return phase_ == Phase::Iterations || stepsNow_ % stepsPerResidual == 0;
 }
 
-int SteadySearch::leastStepsNow() const {
-  if (options_.steps > 0) return options_.steps << std::min(returns_, 10);
-  if (options_.reacts) return leastSteps << std::min(returns_, 10);
-  return returns_ == 0 ? firstStepsWithoutReactions : leastSteps << std::min(returns_ - 1, 10);
+bool SteadySearch::isNear() const {
+  return !options_.reacts && options_.steps == 0 && returns_ == 0 && undisturbed_ >= stepsIfNear &&
+         latest_.largest <= near;
 }
 
 bool SteadySearch::isEstablished() const {
-  const int least = leastStepsNow();
+  if (isNear()) return true;
+  const int least = (options_.steps > 0 ? options_.steps : leastSteps) << std::min(returns_, 10);
   if (stepsNow_ < least) return false;
   if (options_.steps > 0) return true;
   if (stepsNow_ >= mostSteps * least) return true;
   const auto [low, high] = std::ranges::minmax(heat_);
-  return undisturbed_ >= std::min(quietSteps, least) && high - low <= quietHeat * std::max(std::abs(low), std::abs(high));
+  return undisturbed_ >= quietSteps && high - low <= quietHeat * std::max(std::abs(low), std::abs(high));
 }
 
 bool SteadySearch::isAttemptDue() const {

@@ -19,7 +19,7 @@ class SteadySearch {
     int iterations = 1000;   // in all, before the search is given up
     int returns = 5;         // from iterations that fail to steps in time, before the search is given up
     int steps = 0;           // before the first iterations, twice as many with each return; 0: until the heat is quiet
-    bool reacts = true;      // false: there is no heat to wait for, and with steps = 0 ten steps are the first
+    bool reacts = true;      // false: there is no flame to wait for; ten steps are enough where little is left
     // Attempts to iterate before that, after 20 steps and each after twice as many: an attempt that fails is taken
     // back, and the search goes on as if it had not been.
     int attempts = 0;
@@ -81,10 +81,10 @@ class SteadySearch {
 
  private:
   [[nodiscard]] bool isEstablished() const;
+  [[nodiscard]] bool isNear() const;
   [[nodiscard]] bool isAttemptDue() const;
   [[nodiscard]] bool hasNoIterationsLeft() const;
   void goBack(const std::string& why);
-  [[nodiscard]] int leastStepsNow() const;
   // Whether the iterations have left no less of an equation that carries the flame; adds to why they ended.
   [[nodiscard]] bool hasLostFlame();
 
