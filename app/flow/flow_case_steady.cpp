@@ -164,7 +164,8 @@ void addSteadyKeys(DeckSchema& schema) {
                .onlyWith("time.mode", steady))
       .add(integerKey("time.steady.steps",
                       "Steps in time before the first iterations, in place of as many as the heat release takes to "
-                      "become quiet (50 to 300; at least 10 in a gas without reactions). With 20 most flames are found in a third to a tenth of the time; a "
+                      "become quiet (50 to 300; at least 10 in a gas without reactions). With 20 most flames are found "
+                      "in a third to a tenth of the time; a "
                       "flame that can stand in two ways may be found in the other.")
                .optional()
                .atLeast(1)
