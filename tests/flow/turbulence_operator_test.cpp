@@ -72,6 +72,17 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
     turbulence.setStart(state, {ofMolecules, ofMolecules, a});
     State::Balance rates = state.balance;
     turbulence.addRates(state, rates);
+    // Of other variables, without what velocities tell being found anew: the net rates are those of all anew.
+    State varied = state;
+    for (double& value : varied.carried) value *= 1.1;
+    State::Balance alone = state.balance, anew = state.balance;
+    turbulence.addRatesOfCarried(varied, alone);
+    turbulence.addRates(varied, anew);
+    for (std::size_t i = 0; i < anew.carried.size(); ++i) {
+      const double net = anew.netOfCarried(i, varied.carried);
+      EXPECT_NEAR(alone.netOfCarried(i, varied.carried), net, 1e-9 * (1.0 + std::abs(net)));
+    }
+    turbulence.addRates(state, rates = state.balance);
     turbulence.advance(state, 0.0, 0.0);
     // From eddies that are not the state's own, with a halo of what is long past.
     constexpr double past = 7.0;
