@@ -137,8 +137,8 @@ TEST(PressureForceOnSkewedCells, EvenSlopesAreFoundAsTheyAre) {
 }
 
 // What an even stream carries of velocities: of even slopes as much as there is at the faces' centres, which leaves the
-// stream times the slopes in each cell; of others what lies along the slope of the cell it comes from, between cells with
-// opposite sides on the parabola through both cells' values.
+// stream times the slopes in each cell; of others what lies along the slope of the cell it comes from, between cells
+// with opposite sides on the parabola through both cells' values.
 TEST(MomentumForcesOnSkewedCells, ConvectedVelocitiesAreThoseAtTheFacesCentres) {
   constexpr double sharp = 4e2;
   const Vector3 stream{0.3, -0.2, 0.1};
