@@ -129,7 +129,7 @@ def check_stops(executable, folder):
         until = time.monotonic() + 30
         while not (out / "run.json").exists() and time.monotonic() < until:
             time.sleep(0.05)
-        time.sleep(0.5)
+        time.sleep(1.0)
         process.send_signal(number)
         said = process.communicate(timeout=30)[1]
         name = signal.Signals(number).name
