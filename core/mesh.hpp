@@ -73,10 +73,9 @@ class Mesh {
 
   // Where the steps are not along the normals, or do not meet the faces' centres, on any rank: what is missing from
   // fluxes and values that go by the two cells alone. Empty otherwise.
-  std::vector<Vector3> oblique;  // normal - step/distance, of length tan(angle), at most mostOblique
-  std::vector<Vector3> offset;   // m, from where the step meets the face to its centre
-  std::vector<char>
-      betweenOpposite;  // with `offset`: whether both cells have opposite sides, so that they may be of layers
+  std::vector<Vector3> oblique;       // normal - step/distance, of length tan(angle), at most mostOblique
+  std::vector<Vector3> offset;        // m, from where the step meets the face to its centre
+  std::vector<char> betweenOpposite;  // with `offset`: whether both cells have opposite sides, as those of layers do
   // 76 degrees. What is cut is missing from the fluxes on any number of cells: a flame on triangles at 74 degrees, cut
   // at 60, was as wrong on fine cells as on coarse ones.
   static constexpr double mostOblique = 4.0;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "core/errors.hpp"
+
 namespace lampblack::flow {
 namespace {
 
@@ -205,9 +207,14 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   numbers.push_back(phase_ == Phase::Iterations ? 1.0 : 0.0);
   for (const int count : {attempts_, attempted_, isAttempt_ ? 1 : 0}) numbers.push_back(count);
   std::vector<double> heat(heat_.begin(), heat_.end());
+  const std::size_t expected = numbers.size();
   archive.shared("steady_search", numbers);
   archive.shared("steady_search_heat", heat);
   if (!archive.loading()) return;
+  if (numbers.size() != expected)
+    throw InputError(
+        "the checkpoint was written by another version of Lampblack, whose search for a steady state kept other "
+        "numbers; start anew from its results instead (initial.flow)");
   std::size_t next = 0;
   for (double* value : values) *value = numbers.at(next++);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,

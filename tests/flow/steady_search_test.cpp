@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "core/state_backup.hpp"
 
@@ -32,6 +33,17 @@ void pass(SteadySearch& from, SteadySearch& to) {
   StateBackup kept(0, 0);
   kept.save([&](StateArchive& archive) { from.saveOrLoad(archive); });
   kept.restore([&](StateArchive& archive) { to.saveOrLoad(archive); });
+}
+
+TEST(SteadySearch, OfAnotherVersionsCheckpointIsRefused) {
+  StateBackup kept(0, 0);
+  kept.save([](StateArchive& archive) {
+    std::vector<double> numbers(22, 1.0), heat(3, 1.0);
+    archive.shared("steady_search", numbers);
+    archive.shared("steady_search_heat", heat);
+  });
+  SteadySearch search({});
+  EXPECT_THROW(kept.restore([&](StateArchive& archive) { search.saveOrLoad(archive); }), InputError);
 }
 
 TEST(SteadySearch, IteratesOnceTheHeatReleaseIsQuiet) {
