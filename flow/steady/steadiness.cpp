@@ -109,6 +109,38 @@ void Steadiness::begin(const State& state, double time) {
   startPiece(state);
 }
 
+void Steadiness::adopt(const State& state, const GasProperties& properties, double time) {
+  begin(state, time);
+  sums_ = totalsOf(state, properties).flow;
+}
+
+Steadiness::Totals Steadiness::totalsOf(const State& state, const GasProperties& properties) const {
+  const Mesh& m = context_->mesh;
+  const auto d = static_cast<std::size_t>(state.dimension);
+  Totals totals;
+  auto& [duration, mass, through, kinetic, conduction] = totals.flow;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
+    const double ofCell = state.density[c] * m.volume[c];
+    double squares = state.swirls ? state.swirl[c] * state.swirl[c] : 0.0;
+    for (std::size_t axis = 0; axis < d; ++axis) {
+      const double u = state.velocity[c * d + axis];
+      squares += u * u;
+      totals.momentum[axis] += ofCell * u;
+    }
+    mass += ofCell;
+    kinetic += 0.5 * ofCell * squares;
+    conduction += properties.effectiveConductivity()[c] / properties.heatCapacity[c] * m.volume[c];
+  }
+  for (auto face = static_cast<std::size_t>(m.interiorFaces); face < static_cast<std::size_t>(m.faces); ++face)
+    through += 0.5 * std::abs(state.massFlux[face]);
+  std::array<double, 7> all{mass, through, kinetic, conduction};
+  std::ranges::copy(totals.momentum, all.begin() + 4);
+  MPI_Allreduce(MPI_IN_PLACE, all.data(), static_cast<int>(all.size()), MPI_DOUBLE, MPI_SUM, m.comm);
+  totals.flow = {1.0, all[0], all[1], all[2], all[3]};
+  std::copy_n(all.begin() + 4, 3, totals.momentum.begin());
+  return totals;
+}
+
 void Steadiness::add(const State& state, const GasProperties& properties, const HeatRelease& heatRelease, double time) {
   const Mesh& m = context_->mesh;
   forEachValue(state, [this](std::size_t i, double value) {
@@ -118,44 +150,24 @@ void Steadiness::add(const State& state, const GasProperties& properties, const 
   pressureNow_ = state.thermodynamicPressure;
   pressure_ = {std::min(pressure_[0], pressureNow_), std::max(pressure_[1], pressureNow_)};
 
-  const auto d = static_cast<std::size_t>(state.dimension);
   const double expected = this->time();
   const bool isDue =
       times_.empty() || !std::isfinite(expected) || time - times_.back() >= expected / recordsPerTime * (1.0 - 1e-9);
-  // Mass, what flows through, kinetic energy, conduction, heat release, momentum.
-  std::array<double, 8> whole{};
-  double hottest = 0.0;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
-    const double mass = state.density[c] * m.volume[c];
-    double squares = state.swirls ? state.swirl[c] * state.swirl[c] : 0.0;
-    for (std::size_t axis = 0; axis < d; ++axis) {
-      const double u = state.velocity[c * d + axis];
-      squares += u * u;
-      whole[5 + axis] += mass * u;
-    }
-    whole[0] += mass;
-    whole[2] += 0.5 * mass * squares;
-    whole[3] += properties.effectiveConductivity()[c] / properties.heatCapacity[c] * m.volume[c];
-    hottest = std::max(hottest, state.temperature[c]);
-  }
-  for (auto face = static_cast<std::size_t>(m.interiorFaces); face < static_cast<std::size_t>(m.faces); ++face)
-    whole[1] += 0.5 * std::abs(state.massFlux[face]);
-  if (isDue) {
-    const std::vector<double> heat = heatRelease();
-    for (std::size_t c = 0; c < heat.size(); ++c) whole[4] += heat[c] * m.volume[c];
-  }
-  MPI_Allreduce(MPI_IN_PLACE, whole.data(), static_cast<int>(whole.size()), MPI_DOUBLE, MPI_SUM, m.comm);
+  const Totals totals = totalsOf(state, properties);
   const double dt = time - last_;
   last_ = time;
-  sums_[Duration] += dt;
-  sums_[Mass] += dt * whole[0];
-  sums_[Through] += dt * whole[1];
-  sums_[KineticEnergy] += dt * whole[2];
-  sums_[Conduction] += dt * whole[3];
+  for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += dt * totals.flow[i];
   if (isDue) {
+    double hottest = 0.0, heat = 0.0;
+    const std::vector<double> released = heatRelease();
+    for (std::size_t c = 0; c < released.size(); ++c) {
+      heat += released[c] * m.volume[c];
+      hottest = std::max(hottest, state.temperature[c]);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &heat, 1, MPI_DOUBLE, MPI_SUM, m.comm);
     MPI_Allreduce(MPI_IN_PLACE, &hottest, 1, MPI_DOUBLE, MPI_MAX, m.comm);
-    std::vector<double> values(whole.begin() + 5, whole.begin() + 5 + static_cast<std::ptrdiff_t>(d));
-    values.insert(values.end(), {whole[2], whole[0], hottest, whole[4]});
+    std::vector<double> values(totals.momentum.begin(), totals.momentum.begin() + state.dimension);
+    values.insert(values.end(), {totals.flow[KineticEnergy], totals.flow[Mass], hottest, heat});
     record(values, time);
   }
   if (sums_[Duration] >= timeOf(sums_) / piecesOfTime * (1.0 - 1e-9)) closePiece(state);

@@ -50,6 +50,8 @@ class Steadiness {
 
   // Forgets all, and starts from the state at a time (s).
   void begin(const State& state, double time);
+  // Forgets all, and has the flow of a state that no time has led to, as if it had lasted until `time`. Collective.
+  void adopt(const State& state, const GasProperties& properties, double time);
   // The state after a step that was taken. Collective.
   void add(const State& state, const GasProperties& properties, const HeatRelease& heatRelease, double time);
 
@@ -85,13 +87,19 @@ class Steadiness {
 
   // The mesh has been partitioned anew; what is kept is then loaded.
   void moveTo(const FlowContext& context);
-  // Collective.
-  void saveOrLoad(StateArchive& archive);
+  // Collective. Names begin with the prefix, where there is another.
+  void saveOrLoad(StateArchive& archive, const std::string& prefix = "");
 
  private:
   // What integrals over time are made of, each times s.
   enum Sum { Duration, Mass, Through, KineticEnergy, Conduction, Sums };
   using Integrals = std::array<double, Sums>;
+  // Of a state over a second, and more of it: momentum along each axis.
+  struct Totals {
+    Integrals flow{};
+    std::array<double, 3> momentum{};
+  };
+  [[nodiscard]] Totals totalsOf(const State& state, const GasProperties& properties) const;  // collective
   // What is looked at by itself: a field, a species or a carried scalar.
   struct Field {
     FieldDeclaration::Width width;
