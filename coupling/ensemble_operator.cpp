@@ -50,10 +50,12 @@ EnsembleOperator::EnsembleOperator(const FlowContext& context, const TransportOp
       rate_(reserve_.size()),
       outflow_(amounts_.count()),
       resampled_(amounts_.held),
-      resampledBefore_(amounts_.held) {
+      resampledBefore_(amounts_.held),
+      turn_(options_.inTurn ? Turn::Gas : Turn::Both) {
   if (options_.statistics)
     statistics_.emplace(context.mesh, particles_->material(), *options_.statistics,
                         options_.sizes ? std::optional(options_.bins) : std::nullopt);
+  if (options_.inTurn && options_.exchange == Exchange::TwoWay) meanExchange_.emplace(context, particles_->species());
 }
 
 ParticleGas EnsembleOperator::gasOf(const State& state, int cell, std::vector<double>& concentrations) const {
@@ -139,6 +141,7 @@ void EnsembleOperator::take(State& state, int cell, bool isHeld, std::span<const
 }
 
 void EnsembleOperator::advance(State& state, double time, double dt) {
+  if (turn_ == Turn::Gas) return;
   const Mesh& m = context_.mesh;
   if (options_.sweeps > 1) {
     if (!inStep_) {
@@ -265,6 +268,7 @@ void EnsembleOperator::endStep(State& state) {
     for (const FaceWatcher& watcher : faceWatchers_) watcher(lastStep_, goneThrough_);
     resampledBefore_ = resampled_;
     addToStatistics(state);
+    if (turn_ == Turn::Particles) addToMeans(state);
   }
   inStep_ = false;
   work_.endStep();
@@ -274,6 +278,7 @@ void EnsembleOperator::endStep(State& state) {
 }
 
 void EnsembleOperator::endSweep(State& state) {
+  addRates(state, state.balance);
   if (!(options_.average > 0.0)) return;
   const auto W = context_.mechanism.molecularWeights();
   const std::vector<std::size_t>& species = particles_->species();
@@ -297,6 +302,7 @@ void EnsembleOperator::saveOrLoad(StateArchive& archive) {
   archive.shared("ensemble_steps", shared);
   steps_ = static_cast<std::int64_t>(shared.at(0));
   lastStep_ = shared.at(1);
+  if (options_.inTurn) saveOrLoadTurn(archive);
   EnsembleStatistics::saveOrLoad(archive, statistics_ ? &*statistics_ : nullptr);
 }
 

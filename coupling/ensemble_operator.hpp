@@ -28,6 +28,7 @@
 #include "coupling/ensemble_sizes.hpp"
 #include "coupling/ensemble_statistics.hpp"
 #include "coupling/ensemble_transport.hpp"
+#include "coupling/mean_exchange.hpp"
 #include "flow/models/gas_exchange.hpp"
 #include "flow/models/shared_cell_work.hpp"
 #include "flow/operator.hpp"
@@ -55,6 +56,9 @@ class EnsembleOperator : public Operator {
     SizeBins bins;           // of size distributions
     bool sizes = true;       // whether they are fields
     std::optional<EnsembleStatistics::Options> statistics;
+    // Whether gas and particles change in turn (beginGas(), beginParticles()), the gas first; the averages then start
+    // by themselves in each turn of the particles.
+    bool inTurn = false;
   };
   // kg of each element of the mechanism in a unit of each amount.
   [[nodiscard]] static std::vector<std::vector<double>> unitElements(const Mechanism& mechanism,
@@ -88,8 +92,11 @@ class EnsembleOperator : public Operator {
   [[nodiscard]] std::vector<double> regionRows(std::size_t table, const MeshRegion& region) const override;
   // In a frozen gas.
   [[nodiscard]] bool holdsOthers(double time) const override {
-    return options_.frozenFrom && time >= *options_.frozenFrom;
+    return turn_ == Turn::Particles || (options_.frozenFrom && time >= *options_.frozenFrom);
   }
+  // What the particles take in the mean, while it is the gas's turn.
+  void addRates(const State& state, State::Balance& rates) override;
+  void addSlopes(const State& state, const Slopes& slopes) override;
   [[nodiscard]] bool isStochastic() const override { return true; }
   void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
 
@@ -104,6 +111,14 @@ class EnsembleOperator : public Operator {
   [[nodiscard]] const CellParticles& particles() const { return *particles_; }
   // Averages over time; null without.
   [[nodiscard]] const EnsembleStatistics* statistics() const { return statistics_ ? &*statistics_ : nullptr; }
+  // Gas and particles in turn. In the gas's turn the particles rest, and the gas has what they took in the mean of
+  // their last turn (nothing before the first); in theirs the gas rests, and what they take of it is averaged from when
+  // they are stationary on, or from a time (s) on. Between them what the state has of the particles are their mean
+  // amounts. `block` (s): of the averages.
+  void beginParticles(double block, std::optional<double> averagedFrom = {});
+  void beginGas(State& state);
+  // Blocks that the averages of the particles' turn have so far.
+  [[nodiscard]] std::size_t averagedBlocks() const { return statistics_->blocks(); }
   // Packed, of the owned cells, with what has arrived since; empty where there is none.
   [[nodiscard]] const std::vector<std::vector<double>>& populations() const { return populations_; }
   // Replaces the population of an owned cell by a packed one.
@@ -141,6 +156,9 @@ class EnsembleOperator : public Operator {
   void setOwed(State& state, int cell) const;
   void countOutflow();
   void addToStatistics(const State& state);
+  void addToMeans(const State& state);
+  void beginAverages(double block, std::optional<double> from);
+  void saveOrLoadTurn(StateArchive& archive);
 
   const FlowContext& context_;
   const TransportOperator& flow_;
@@ -172,6 +190,13 @@ class EnsembleOperator : public Operator {
   std::vector<double> resampled_, resampledBefore_;
   std::vector<double> concentrations_;
   std::optional<EnsembleStatistics> statistics_;
+  enum class Turn { Both, Gas, Particles };
+  Turn turn_;
+  std::optional<MeanExchange> meanExchange_;  // where they change in turn, with exchange both ways
+  // Of the present turn of the particles, since the averages have started: s; the integrals over time of the amounts of
+  // the owned cells; the reserve that they started with, empty before.
+  double averagedTime_ = 0.0;
+  std::vector<double> amountSums_, reserveBefore_;
   // Of the last row.
   double peak_ = 0.0;
   Vector3 place_{};

@@ -47,6 +47,7 @@ class EnsembleStatistics {
   [[nodiscard]] std::optional<double> since() const { return since_; }  // s, once the averages have started
   [[nodiscard]] std::size_t blocks() const { return blocks_; }          // in the averages
   [[nodiscard]] double block() const { return options_.block; }
+  [[nodiscard]] std::optional<double> start() const { return options_.start; }  // s; nothing: when stationary
 
   // Fields of the averages; those that are not known yet are left out, unless the sink wants them.
   void fields(const Operator::FieldSink& sink) const;

@@ -38,6 +38,7 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, const RunFolder&
       flowCase.trajectories.reset();
       flowCase.time.search->stability.reset();
       flowCase.time.search->branch.reset();
+      flowCase.time.search->rounds.reset();
       flowCase.output.tables = {};
     });
     const RunFolder own = RunFolder::prepare(folder.path() / fmt::format("coarser_{}", level), true, comm);

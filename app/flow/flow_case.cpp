@@ -183,11 +183,16 @@ void readDrivingForce(const Deck& deck, FlowCase& flowCase) {
 EnsembleStatistics::Options readStatistics(const Deck& deck, FlowCase& flowCase) {
   constexpr double usualBlocks = 20.0;  // in the whole run
   const std::string section = "particles.statistics";
-  const double end = deck.quantity("time.end");
   EnsembleStatistics::Options options;
-  options.start = deck.optionalQuantity(section + ".start");
-  options.block = deck.optionalQuantity(section + ".block").value_or(end / usualBlocks);
   options.drift = deck.number(section + ".drift");
+  options.start = deck.optionalQuantity(section + ".start");
+  const std::optional<double> block = deck.optionalQuantity(section + ".block");
+  if (isSearched(deck)) {
+    options.block = block.value_or(0.0);  // what the flow gives
+    return options;
+  }
+  const double end = deck.quantity("time.end");
+  options.block = block.value_or(end / usualBlocks);
   if (options.start && *options.start >= end)
     throw deck.error(section + ".start", fmt::format("expected less than 'time.end', {} s", end));
   // Of averages that start by themselves those blocks come first that show it.
@@ -306,7 +311,6 @@ FlowCase readFlowCase(const Deck& deck) {
   flowCase.title = deck.string("title");
   flowCase.pressure = deck.quantity("pressure");
   flowCase.seed = deck.integer<std::uint64_t>("seed");
-  requireModeOfParticles(deck);
   flowCase.mechanism = readMechanism(deck);
   readMesh(deck, flowCase);
   flowCase.transport = readTransport(deck, *flowCase.mechanism);

@@ -25,6 +25,7 @@
 #include "flow/steady/flow_branch.hpp"
 #include "flow/steady/leading_modes.hpp"
 #include "flow/steady/steadiness.hpp"
+#include "flow/steady/steady_rounds.hpp"
 #include "flow/steady/steady_search.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "io/deck.hpp"
@@ -71,6 +72,7 @@ struct TimeControl {
     bool lights = true;               // what was lit by the start and does not burn once the steps in time are over
     std::optional<Stability> stability = {};
     std::optional<Branch> branch = {};
+    std::optional<SteadyRounds::Options> rounds = {};  // of gas and ensembles in turn
   };
   std::optional<Search> search;
 

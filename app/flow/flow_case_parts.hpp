@@ -38,7 +38,7 @@ void readBoundaries(const Deck& deck, FlowCase& flowCase);
 std::string fileNameOf(std::string name);
 
 // The section time: its keys, and reading it with what else the steps depend on, when boundaries, start and particles
-// have been read. requireModeOfParticles: ensembles fluctuate and are never steady.
+// have been read. readRounds: of gas and ensembles in turn, behind both.
 void addTimeKeys(DeckSchema& schema);
 void addSteadyKeys(DeckSchema& schema);           // of time.steady
 [[nodiscard]] bool isSearched(const Deck& deck);  // whether the run looks for a steady state
@@ -47,7 +47,7 @@ void addBranchKeys(DeckSchema& schema);  // of time.steady.continuation
 std::optional<TimeControl::Branch> readBranch(const Deck& deck, const TimeControl::Search& search,
                                               const FlowCase& flowCase);
 TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase);
-void requireModeOfParticles(const Deck& deck);
+void readRounds(const Deck& deck, FlowCase& flowCase);
 void readTime(const Deck& deck, FlowCase& flowCase);
 
 // The section turbulence and what inlets bring of it: their keys, and reading them when boundaries, particles and start

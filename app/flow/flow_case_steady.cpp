@@ -9,6 +9,7 @@
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/flow/flow_case_parts.hpp"
+#include "coupling/block_statistics.hpp"
 
 namespace lampblack::app::flowcase {
 namespace {
@@ -17,6 +18,7 @@ constexpr const char* mode = "time.mode";
 constexpr const char* steadySection = "time.steady";
 constexpr const char* stabilitySection = "time.steady.stability";
 constexpr int usualAttempts = 2;
+const std::vector<std::string> populations{"ensemble", "trees"};
 
 // A vessel without an outlet keeps its mass, and what its gas is heated by its pressure. The equations of a state know
 // neither: where any of it can change, no residual tells of it.
@@ -187,6 +189,33 @@ void addSteadyKeys(DeckSchema& schema) {
                .atLeast(0)
                .atMost(5)
                .onlyWith("time.mode", steady));
+  const SteadyRounds::Options rounds;
+  schema
+      .add(integerKey(
+               "time.steady.rounds",
+               "With ensembles or trees: most rounds, in each of which first the gas becomes steady with what the "
+               "particles take of it in the mean (nothing in the first), then the particles have their averages in "
+               "that gas.")
+               .byDefault(fmt::format("{}", rounds.most))
+               .atLeast(1)
+               .onlyWith(descriptionKey, populations)
+               .onlyWith("time.mode", steady))
+      .add(numberKey("time.steady.agreement",
+                     "With ensembles or trees: change of temperature, mass fractions and velocity of the gas from one "
+                     "round to the next, of the range of each in the domain, with which the rounds end. What the gas "
+                     "feels of the particles has the noise of their averages, by which it differs from round to round.")
+               .byDefault(fmt::format("{}", rounds.tolerance))
+               .above(0)
+               .onlyWith(descriptionKey, populations)
+               .onlyWith("time.mode", steady))
+      .add(integerKey("time.steady.blocks",
+                      "With ensembles or trees: blocks (particles.statistics.block) of the averages of the last round; "
+                      "those before, while "
+                      "the gas still changes by more than three times 'agreement', have the least number.")
+               .byDefault(fmt::format("{}", rounds.blocks))
+               .atLeast(static_cast<double>(leastBlocks))
+               .onlyWith(descriptionKey, populations)
+               .onlyWith("time.mode", steady));
   const ModeOptions modes;
   schema
       .section(stabilitySection, Presence::optional,
@@ -213,12 +242,26 @@ void addSteadyKeys(DeckSchema& schema) {
   addBranchKeys(schema);
 }
 
-void requireModeOfParticles(const Deck& deck) {
-  if (isSearched(deck) && hasPopulation(deck))
-    throw deck.error(mode,
-                     "ensembles in the cells fluctuate, and with them the gas: they have averages, and no steady "
-                     "state. Seek that of the gas with a model of soot, or without, and start from its results with "
-                     "ensembles in time ('initial.flow')");
+void readRounds(const Deck& deck, FlowCase& flowCase) {
+  for (const auto& [key, why] : std::initializer_list<std::pair<const char*, const char*>>{
+           {"particles.statistics.start", "averages start by themselves once the particles are stationary"},
+           {"particles.frozen_gas", "the gas rests while the particles change, and they while it does"},
+           {"particles.averaging_time", "the gas has the mean of what the particles take"},
+           {"time.steady.stability", "disturbances of a gas with particles that fluctuate are not marched"},
+           {"time.steady.continuation", "branches with ensembles are not followed"}})
+    if (deck.isGiven(key))
+      throw deck.error(key, fmt::format("with ensembles in 'time.mode: steady' {}; leave this out", why));
+  EnsembleOperator::Options& ensembles = *flowCase.ensembles;
+  ensembles.inTurn = true;
+  ensembles.average = 0.0;
+  if (!ensembles.statistics) ensembles.statistics.emplace();
+  SteadyRounds::Options& rounds = flowCase.time.search->rounds.emplace();
+  rounds.leastBlocks = leastBlocks;
+  rounds.actsOnGas = ensembles.exchange == EnsembleOperator::Exchange::TwoWay;
+  if (!deck.has(steadySection)) return;
+  rounds.most = deck.integer<int>("time.steady.rounds");
+  rounds.tolerance = deck.number("time.steady.agreement");
+  rounds.blocks = deck.integer<std::size_t>("time.steady.blocks");
 }
 
 }  // namespace lampblack::app::flowcase

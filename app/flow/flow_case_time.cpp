@@ -99,6 +99,7 @@ void readTime(const Deck& deck, FlowCase& flowCase) {
   time.wallLimit = deck.optionalQuantity("time.wall_limit");
   time.temperatureChange = deck.quantity("time.temperature_change");
   time.leastMassFraction = deck.number("time.least_mass_fraction");
+  if (time.search && flowCase.ensembles) readRounds(deck, flowCase);
   flowCase.flow.courant = deck.number("time.courant");
   if (deck.choice("convection.velocity") == "central") {
     flowCase.flow.velocityScheme = VelocityScheme::Central;

@@ -26,10 +26,12 @@ FlowLoop::FlowLoop(MPI_Comm comm, FlowCase flowCase)
       steadiness_(domain_->context, domain_->state,
                   {case_.time.steadyTime(), std::ranges::none_of(domain_->operators, &Operator::isStochastic)}),
       search_(case_.time.search),
+      gases_(domain_->context, domain_->state, {.time = 1.0, .hasParticles = false}),
       costs_(domain_->mesh),
       repartitions_(case_.repartition.has_value() && domain_->mesh.ranks > 1),
       backup_(domain_->mesh.owned, domain_->mesh.faces),
       wallLimit_(case_.time.wallLimit) {
+  if (search_ && case_.time.search->rounds) rounds_.emplace(*case_.time.search->rounds);
   domain_->setStart(case_);
   startsHot_ = isHot();
   beginNextStep();
@@ -105,7 +107,9 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
       if (!problem.empty()) printWarnings({problem});
     }
     stepBegan_ = secondsSinceStart();
-    if (search_)
+    if (rounds_)
+      takeTurn(outputs);
+    else if (search_)
       searchOn(outputs);
     else
       stepInTime(outputs);
@@ -113,7 +117,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     if (due || steps_ % case_.output.historySteps == 0) {
       const HistoryRow row = writeRow(history);
       if (search_)
-        progress.say(searchPlace(), search_->progress(), status(row));
+        progress.say(searchPlace(), searchProgress(), status(row));
       else
         progress.update(steps_, time_, dt_, status(row));
     }
@@ -162,6 +166,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
 }
 
 bool FlowLoop::isSteady() const {
+  if (rounds_) return rounds_->isDone();
   if (search_) return search_->isSteady();
   const std::optional<SteadyControl>& steady = case_.time.steady;
   return steady && time_ >= steady->after && steadiness_.isSteady(steady->tolerance, steady->norm);

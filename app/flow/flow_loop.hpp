@@ -33,6 +33,7 @@
 #include "flow/steady/residual_norms.hpp"
 #include "flow/steady/steadiness.hpp"
 #include "flow/steady/steady_iteration.hpp"
+#include "flow/steady/steady_rounds.hpp"
 #include "flow/steady/steady_search.hpp"
 #include "io/json.hpp"
 #include "io/progress.hpp"
@@ -119,6 +120,14 @@ class FlowLoop {
   void searchOn(Outputs& outputs);
   void iterate(Outputs& outputs);
   void makeIteration();
+  // Collective. Of the state that steps have led to, as searchOn() takes it.
+  [[nodiscard]] SteadySearch::Residual evaluateForSearch();
+  // Gas and ensembles in turn: what the present turn wants next, and what it has led to.
+  void takeTurn(Outputs& outputs);
+  void endTurnOfGas(Outputs& outputs);
+  void endTurnOfParticles(Outputs& outputs);
+  [[nodiscard]] std::vector<std::string> roundLines() const;
+  void addRounds(JsonWriter& json) const;
   // From iterations that have ended in vain to steps in time.
   void goBack(Outputs& outputs, int attemptsBefore);
   // Lights the flow where steps in time have come to their end and nothing burns, though the start was hot.
@@ -153,7 +162,10 @@ class FlowLoop {
   [[nodiscard]] std::vector<Quantity> searchColumns() const;
   [[nodiscard]] std::vector<double> searchValues() const;
   [[nodiscard]] std::vector<std::string> searchLines() const;
-  [[nodiscard]] std::string searchPlace() const;  // for the line of progress
+  // For the line of progress: where the search is, and how far of the way.
+  [[nodiscard]] std::string searchPlace() const;
+  [[nodiscard]] double searchProgress() const;
+  [[nodiscard]] bool isTurnOfParticles() const { return rounds_ && rounds_->turn() == SteadyRounds::Turn::Particles; }
 
   // The mesh, partitioned by the weights of the owned cells.
   Mesh partitionedBy(const std::vector<double>& weights);
@@ -225,6 +237,8 @@ class FlowLoop {
   MeshQuality quality_;
   Steadiness steadiness_;
   std::optional<SteadySearch> search_;
+  std::optional<SteadyRounds> rounds_;  // with ensembles
+  Steadiness gases_;                    // of the rounds, one behind the other: each as if a second after the last
   struct Stability {
     LeadingModes modes;
     double time = 0.0, step = 0.0;  // s, of a march and of its steps
@@ -233,6 +247,7 @@ class FlowLoop {
   std::optional<FlowBranch> branch_;
   std::unique_ptr<FlowResidual> residual_;      // of the states that steps lead to; made where it is asked for
   std::unique_ptr<SteadyIteration> iteration_;  // while the search iterates
+  std::optional<Steadiness> beforeIterations_;  // steadiness_ then
   std::vector<ResidualNorm> norms_;             // of the last state that was evaluated
   std::int64_t normsOf_ = -1;                   // its number of steps
   std::array<double, 2> processorTime_{};       // s, of steps and of iterations, of all ranks

@@ -33,6 +33,7 @@ void FlowLoop::replaceMesh(Mesh mesh) {
   operators_.insert(operators_.end(), added_.begin(), added_.end());
   tables_->moveTo(domain_->context);
   steadiness_.moveTo(domain_->context);
+  gases_.moveTo(domain_->context);
   costs_ = CellCosts(domain_->mesh);
   backup_ = StateBackup(domain_->mesh.owned, domain_->mesh.faces);
 }
@@ -83,6 +84,7 @@ void FlowLoop::moveTo(Mesh mesh, const std::vector<double>& weights) {
     saveOrLoadParts(archive);
     costs_.saveOrLoad(archive);
     steadiness_.saveOrLoad(archive);
+    gases_.saveOrLoad(archive, "gases_");
   };
   StateBackup moving(domain_->mesh.owned, domain_->mesh.faces);
   moving.save(owners);

@@ -129,7 +129,7 @@ std::string FlowLoop::status(const HistoryRow& row) const {
   std::string text = fmt::format("Tmax {:.0f} K", row.extremes.maximumTemperature);
   for (const Operator* op : operators_)
     if (const std::string more = op->status(); !more.empty()) text += "  " + more;
-  if (search_)
+  if (search_ && !isTurnOfParticles())
     if (const std::string norms = residualText(norms_, domain_->mesh.dimension); !norms.empty())
       text += "  residual: " + norms;
   if (!case_.time.steady) return text;
@@ -160,7 +160,7 @@ std::vector<std::string> FlowLoop::steadyLines() const {
 }
 
 std::vector<ResidualNorm> FlowLoop::residualNow() {
-  if (std::ranges::any_of(operators_, &Operator::isStochastic)) return {};
+  if (!rounds_ && std::ranges::any_of(operators_, &Operator::isStochastic)) return {};
   if (normsOf_ == steps_) return norms_;
   const Timers::Scope scope(timers_, "monitoring");
   FlowResidual residual(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);

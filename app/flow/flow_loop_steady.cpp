@@ -74,6 +74,15 @@ SteadySearch::Residual FlowLoop::residualOfSearch() const {
   return found;
 }
 
+SteadySearch::Residual FlowLoop::evaluateForSearch() {
+  const Timers::Scope timer(timers_, "monitoring");
+  if (!residual_)
+    residual_ = std::make_unique<FlowResidual>(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
+  residual_->evaluate(domain_->state);
+  findNorms(*residual_);
+  return residualOfSearch();
+}
+
 void FlowLoop::searchOn(Outputs& outputs) {
   if (search_->phase() == SteadySearch::Phase::Iterations) {
     iterate(outputs);
@@ -84,13 +93,8 @@ void FlowLoop::searchOn(Outputs& outputs) {
     stepInTime(outputs);
     search_->addStep(totalHeatRelease(), retried_ != retried);
     if (search_->wantsResidual()) {
-      const Timers::Scope timer(timers_, "monitoring");
-      if (!residual_)
-        residual_ =
-            std::make_unique<FlowResidual>(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
-      residual_->evaluate(domain_->state);
-      findNorms(*residual_);
-      search_->addResidualOfStep(residualOfSearch(), mayAttempt());
+      const SteadySearch::Residual residual = evaluateForSearch();
+      search_->addResidualOfStep(residual, mayAttempt());
     }
     lightIfDark(outputs);
   }
@@ -103,6 +107,7 @@ void FlowLoop::makeIteration() {
   const int before = search_->isAttempt() ? search_->attempts() : search_->returns();
   if (before % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
   backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
+  beforeIterations_ = steadiness_;
   // What is a function of the state becomes it, such as an eddy viscosity that lags behind in time.
   for (Operator* op : operators_) op->setDiffusivities(domain_->state);
   domain_->state.updateHalo(domain_->halo);
@@ -126,6 +131,7 @@ void FlowLoop::iterate(Outputs& outputs) {
       domain_->chemistry.setRates(domain_->state, residual.rates().made.reactions);
       domain_->stepControl.setHeatRelease(heatRelease());
       domain_->budget->begin(domain_->state);
+      steadiness_.adopt(domain_->state, domain_->flow.properties(), time_);
       findNorms(residual);
       const SteadySearch::Residual left = residualOfSearch();
       search_->addIteration(left, totalHeatRelease(), left.largest > search_->options().residual || burnsOrCannot());
@@ -144,7 +150,9 @@ void FlowLoop::goBack(Outputs& outputs, int attemptsBefore) {
   const bool wasAttempt = attemptsBefore != search_->attempts();
   if (search_->takesBack()) {
     restoreStepStart(time_, steps_);
+    steadiness_ = *beforeIterations_;
   } else {
+    steadiness_.begin(domain_->state, time_);
     domain_->adopt(case_);
     resumeFromLoadedState();
     dt_ *= firstStepBack;
@@ -186,14 +194,22 @@ void FlowLoop::giveUp(Outputs& outputs) {
 
 void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
   search_->saveOrLoad(archive);
-  if (search_->phase() != SteadySearch::Phase::Iterations) return;
-  if (archive.loading()) {
-    domain_->state.updateHalo(domain_->halo);
-    makeIteration();
+  if (rounds_) {
+    rounds_->saveOrLoad(archive);
+    gases_.saveOrLoad(archive, "gases_");
+    if (isTurnOfParticles()) {
+      if (!archive.loading()) return;
+      domain_->state.updateHalo(domain_->halo);
+      domain_->adopt(case_);
+      return;
+    }
   }
-  if (!iteration_) return;
+  if (search_->phase() != SteadySearch::Phase::Iterations) return;
+  if (archive.loading()) domain_->state.updateHalo(domain_->halo);
+  if (!iteration_) makeIteration();
   iteration_->saveOrLoad(domain_->state, archive);
   backup_.saveOrLoad(archive, "steady_begin_");
+  beforeIterations_->saveOrLoad(archive, "before_iterations_");
 }
 
 std::vector<Quantity> FlowLoop::searchColumns() const {
@@ -221,8 +237,16 @@ std::vector<double> FlowLoop::searchValues() const {
 }
 
 std::string FlowLoop::searchPlace() const {
+  if (isTurnOfParticles())
+    return fmt::format("step {:>6}  ensembles, round {}  t {:.4g} s  dt {:.3g} s", steps_, rounds_->rounds() + 1, time_,
+                       dt_);
   if (iteration_) return fmt::format("step {:>6}  iteration {}", steps_, search_->iterations());
   return fmt::format("step {:>6}  t {:.4g} s  dt {:.3g} s", steps_, time_, dt_);
+}
+
+double FlowLoop::searchProgress() const {
+  if (!isTurnOfParticles()) return search_->progress();
+  return static_cast<double>(domain_->ensembles->averagedBlocks()) / static_cast<double>(rounds_->blocks());
 }
 
 std::vector<std::string> FlowLoop::searchLines() const {
@@ -238,13 +262,16 @@ std::vector<std::string> FlowLoop::searchLines() const {
   const std::string first = search_->firstResidual() > 0.0
                                 ? fmt::format("{:.2e} before the first iteration, ", search_->firstResidual())
                                 : "";
-  return {fmt::format(
-              "{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
-              "largest residual {}{:.2e} now",
-              isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
-              search_->iterations(), takenBack, back, lit, first, largestNorm()),
-          fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s",
-                      processorTime_[InTime], processorTime_[Iterating])};
+  std::vector<std::string> lines{
+      fmt::format(
+          "{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
+          "largest residual {}{:.2e} now",
+          isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
+          search_->iterations(), takenBack, back, lit, first, largestNorm()),
+      fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s", processorTime_[InTime],
+                  processorTime_[Iterating])};
+  for (const std::string& line : roundLines()) lines.push_back(line);
+  return lines;
 }
 
 void FlowLoop::tellSearch() {
@@ -266,6 +293,7 @@ void FlowLoop::addSearch(JsonWriter& json) const {
   json.field("residual_before_iterations", search_->firstResidual()).field("last_residual", largestNorm());
   json.field("processor_time_of_steps_s", processorTime_[InTime]);
   json.field("processor_time_of_iterations_s", processorTime_[Iterating]);
+  if (rounds_) addRounds(json);
   json.endObject();
 }
 

@@ -241,10 +241,12 @@ void addParticles(DeckSchema& schema) {
                        "number have no trend over the last ten blocks or more.")
                .optional()
                .atLeast(0))
-      .add(quantityKey("particles.statistics.block", units::time,
-                       "Length of a block of time, which should be long against what the soot takes to forget; the "
-                       "report says where it is not. Five blocks make an interval. Absent: a twentieth of time.end. "
-                       "A run that goes on from a checkpoint keeps the length it has begun with.")
+      .add(quantityKey(
+               "particles.statistics.block", units::time,
+               "Length of a block of time, which should be long against what the soot takes to forget; the "
+               "report says where it is not. Five blocks make an interval. Absent: a twentieth of time.end, with "
+               "'time.mode: steady' of the residence time. "
+               "A run that goes on from a checkpoint keeps the length it has begun with.")
                .optional()
                .above(0))
       .add(numberKey("particles.statistics.drift",

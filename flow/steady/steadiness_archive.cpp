@@ -5,32 +5,32 @@
 
 namespace lampblack::flow {
 
-void Steadiness::saveOrLoad(StateArchive& archive) {
-  archive.cells("steady_low", low_, width_);
-  archive.cells("steady_high", high_, width_);
+void Steadiness::saveOrLoad(StateArchive& archive, const std::string& prefix) {
+  archive.cells(prefix + "steady_low", low_, width_);
+  archive.cells(prefix + "steady_high", high_, width_);
   std::vector<double> now{last_, pressure_[0], pressure_[1], pressureNow_};
   now.insert(now.end(), sums_.begin(), sums_.end());
-  archive.shared("steady_piece", now);
+  archive.shared(prefix + "steady_piece", now);
   std::vector<double> earlier;
   for (const Piece& piece : pieces_) {
     earlier.insert(earlier.end(), piece.sums.begin(), piece.sums.end());
     for (const auto* values : {&piece.maximum, &piece.rms, &piece.places})
       earlier.insert(earlier.end(), values->begin(), values->end());
   }
-  archive.shared("steady_pieces", earlier);
+  archive.shared(prefix + "steady_pieces", earlier);
   std::vector<double> rows;  // the time and the signals
   for (std::size_t i = 0; i < times_.size(); ++i) {
     rows.push_back(times_[i]);
     for (const RecordedSignal& signal : signals_) rows.push_back(signal.values[i]);
   }
-  archive.shared("steady_record", rows);
+  archive.shared(prefix + "steady_record", rows);
   std::vector<double> period;
   if (periodicity_) {
     period.push_back(periodicity_->period);
     for (const Periodicity::Range& range : periodicity_->ranges) period.insert(period.end(), {range.low, range.high});
   }
   for (const RecordedSignal& signal : signals_) period.push_back(signal.scale);
-  archive.shared("steady_period", period);
+  archive.shared(prefix + "steady_period", period);
   if (!archive.loading()) return;
 
   last_ = now.at(0);

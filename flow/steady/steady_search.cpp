@@ -63,7 +63,7 @@ bool SteadySearch::isAttemptDue() const {
 }
 
 bool SteadySearch::hasNoIterationsLeft() const {
-  if (!isAttempt_) return iterations_ - attempted_ >= options_.iterations;
+  if (!isAttempt_) return iterations_ - attempted_ - iterationsBefore_ >= options_.iterations;
   return iterationsNow_ >= options_.iterations ||
          (iterationsNow_ >= mostOfAttempt && iterationsNow_ - bestAt_ >= patienceOfAttempt);
 }
@@ -84,12 +84,26 @@ void SteadySearch::addResidualOfStep(const Residual& told, bool burns) {
   if (first_ > 0.0) least_ = std::min(least_, residual);
   const bool established = isEstablished();
   if (isSteady_ || !(established || (burns && isAttemptDue()))) return;
-  phase_ = Phase::Iterations;
   isAttempt_ = !established;
   if (!(first_ > 0.0)) first_ = least_ = residual;
-  began_ = told;
-  best_ = residual;
-  heatAtBegin_ = heat_.back();
+  beginIterations(told, heat_.back());
+}
+
+void SteadySearch::resume(const Residual& residual, double heatRelease) {
+  latest_ = residual;
+  isSteady_ = residual.largest <= options_.residual;
+  takesBack_ = isAttempt_ = false;
+  returns_ = 0;
+  iterationsBefore_ = iterations_ - attempted_;
+  first_ = least_ = residual.largest;
+  beginIterations(residual, heatRelease);
+}
+
+void SteadySearch::beginIterations(const Residual& residual, double heatRelease) {
+  phase_ = Phase::Iterations;
+  began_ = residual;
+  best_ = residual.largest;
+  heatAtBegin_ = heatRelease;
   iterationsNow_ = bestAt_ = failures_ = dark_ = 0;
 }
 
@@ -107,7 +121,7 @@ void SteadySearch::addIteration(const Residual& told, double heatRelease, bool b
   ++iterationsNow_;
   failures_ = 0;
   latest_ = told;
-  dark_ = heatRelease < leftOfHeat * heatAtBegin_ ? dark_ + 1 : 0;
+  dark_ = heatAtBegin_ > 0.0 && heatRelease < leftOfHeat * heatAtBegin_ ? dark_ + 1 : 0;
   if (dark_ >= darkIterations) {
     goBack(fmt::format("the flame has gone out: {:.3g} W of {:.3g} W were left", heatRelease, heatAtBegin_));
     return;
@@ -202,7 +216,7 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   std::vector<double> numbers;
   for (const double* value : values) numbers.push_back(*value);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
-                     &dark_, &lightings_})
+                     &dark_, &lightings_, &iterationsBefore_})
     numbers.push_back(*count);
   numbers.push_back(phase_ == Phase::Iterations ? 1.0 : 0.0);
   for (const int count : {attempts_, attempted_, isAttempt_ ? 1 : 0}) numbers.push_back(count);
@@ -218,7 +232,7 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   std::size_t next = 0;
   for (double* value : values) *value = numbers.at(next++);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
-                     &dark_, &lightings_})
+                     &dark_, &lightings_, &iterationsBefore_})
     *count = static_cast<int>(numbers.at(next++));
   phase_ = numbers.at(next++) != 0.0 ? Phase::Iterations : Phase::Steps;
   for (int* count : {&attempts_, &attempted_}) *count = static_cast<int>(numbers.at(next++));

@@ -56,6 +56,9 @@ class SteadySearch {
   void addIteration(const Residual& residual, double heatRelease, bool burns = true);
   // An iteration that was not taken, and why; the next may be, as it tries less.
   void addFailure(const std::string& why);
+  // What acts on the flow has changed, of which that is left in the state that was found: iterations go on from there,
+  // as many as at the start.
+  void resume(const Residual& residual, double heatRelease);
   // The flow has been lit: the steps in time begin anew, as at the start of the search.
   void addLighting();
   // The iterations cannot go on, and the state is not to be relied on.
@@ -80,6 +83,7 @@ class SteadySearch {
   void saveOrLoad(StateArchive& archive);
 
  private:
+  void beginIterations(const Residual& residual, double heatRelease);
   [[nodiscard]] bool isEstablished() const;
   [[nodiscard]] bool isNear() const;
   [[nodiscard]] bool isAttemptDue() const;
@@ -92,6 +96,7 @@ class SteadySearch {
   Phase phase_ = Phase::Steps;
   bool isSteady_ = false, isGivenUp_ = false, takesBack_ = false;
   int steps_ = 0, iterations_ = 0, returns_ = 0, lightings_ = 0;
+  int iterationsBefore_ = 0;          // it was resumed the last time
   int stepsNow_ = 0;                  // of the present phase
   std::deque<double> heat_;           // W, of the last steps, the present at the back
   int undisturbed_ = 0;               // steps since one that was tried again

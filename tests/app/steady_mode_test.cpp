@@ -381,7 +381,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "'out' is no inlet, nor a wall that has a temperature"},
         Refused{
             "ABranchOfTheMesh", {"time.steady.continuation.key=mesh.refinement"}, "expected 'pressure', or a value"},
-        Refused{"Ensembles", {"particles.description=ensemble"}, "time.mode: ensembles in the cells fluctuate"},
         Refused{"AVesselThatIsFilled", {closed}, "time.mode: a vessel without an outlet"},
         Refused{"AVesselThatIsCooled", {closed, noInlet, "boundaries.cold.temperature=299 K"}, "a vessel without"},
         Refused{
