@@ -77,9 +77,13 @@ inline void expectSameFields(const Ran& found, const Ran& expected, double toler
 }
 
 inline void expectSameBits(const Ran& found, const Ran& expected) {
-  EXPECT_EQ(found.fields, expected.fields);
-  EXPECT_EQ(found.history, expected.history);
-  EXPECT_EQ(found.tables, expected.tables);
+  for (const auto of : {&Ran::fields, &Ran::history, &Ran::tables}) {
+    EXPECT_EQ((found.*of).size(), (expected.*of).size());
+    for (const auto& [name, values] : expected.*of) {
+      const auto at = (found.*of).find(name);
+      EXPECT_TRUE(at != (found.*of).end() && at->second == values) << name;
+    }
+  }
 }
 
 }  // namespace lampblack::test
