@@ -6,6 +6,8 @@
 #include "app/flame1d/flame_run.hpp"
 #include "app/flow/flow_case.hpp"
 #include "app/flow/flow_run.hpp"
+#include "app/pah/pah_case.hpp"
+#include "app/pah/pah_run.hpp"
 #include "app/population_balance/population_case.hpp"
 #include "app/population_balance/population_run.hpp"
 #include "app/prescribed_gas/prescribed_gas_case.hpp"
@@ -32,6 +34,10 @@ const std::vector<Problem>& problems() {
        "A population of particles in a well-stirred volume of gas: Monte Carlo, sectional and moment methods, "
        "compared.",
        populationSchema, preparePopulation},
+      {"pah",
+       "Single molecules of polycyclic aromatic hydrocarbons that grow site by site, by kinetic Monte Carlo, in a gas "
+       "that is constant, of a table, or along a one-dimensional flame.",
+       pahSchema, preparePah, true},
   };
   return table;
 }

@@ -13,6 +13,7 @@
 
 #include "core/modules.hpp"
 #include "particles/collisions/collision_physics.hpp"
+#include "particles/gas/rate_constant.hpp"
 
 namespace lampblack::chemistry {
 class Mechanism;
@@ -53,11 +54,6 @@ struct PahSpecies {
 // The fraction of active sites at a temperature (K).
 struct AlphaPoint {
   double temperature = 0, alpha = 0;
-};
-
-// A T^n exp(-E/RT), as the papers print it.
-struct RateConstant {
-  double A = 0, n = 0, E = 0;  // cm3/mol/s; -; kcal/mol
 };
 
 // The surface chemistry of soot, with the constants of Appel, Bockhorn and Frenklach (2000).

@@ -9,7 +9,7 @@ namespace {
 
 // In m3/mol/s.
 double arrhenius(const RateConstant& k, double logT, double inverseRT) {
-  return 1e-6 * k.A * std::exp(k.n * logT - 1e3 * constants::thermochemicalCalorie * k.E * inverseRT);
+  return 1e-6 * valueAt(k, logT, inverseRT);
 }
 
 // Wang (2025), eqs. 7-47 to 7-49.

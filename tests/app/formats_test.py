@@ -141,6 +141,7 @@ def main(executable: str, *mpiexec: str) -> int:
             "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "particles={description: ensemble, number: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
             "particles.statistics={start: 10 us, block: 2 us}",
             "particles.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
+        runs["molecules"] = (CASES / "pah/pyrene_growth/deck.yaml", *running.settings("repeats=20", "gas.end=5 us", "output.spectra=[5 us]"))
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (SOOT_TREES, "flame_trees"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)

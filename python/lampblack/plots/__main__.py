@@ -2,7 +2,7 @@
 cells also a film), history; of a reactor its history, ignition and sensitivities, and where it has tables of every particle
 micrographs, distributions and averages by size; of particles along a given gas their history, rates and sizes; of a population
 balance moments, errors and
-size distributions; of a one-dimensional flame its profiles, soot and sensitivities; of a study its runs compared, and errors against numbers
+size distributions; of molecules their growth, mass spectrum and rings; of a one-dimensional flame its profiles, soot and sensitivities; of a study its runs compared, and errors against numbers
 of particles; of several one-dimensional flames one picture that compares them.
 
 Usage: lampblack plot RESULTS_DIR [RESULTS_DIR...] [--reference CSV]... [--fields FIELD...]
@@ -34,6 +34,7 @@ def main():
         from .flame_course import plot_branch, plot_course
         from .flame_study import is_flame_study, plot_flame_study
         from .history import plot_history
+        from .molecules import plot_molecules
         from .planes import plot_planes
         from .population import plot_population
         from .profiles import plot_profiles
@@ -64,7 +65,7 @@ def main():
         if arguments.fields:
             plot_fields(results, arguments.fields, pictures)
             return finish(arguments, pictures)
-        without_references = results.is_reactor or results.is_population or results.is_flame or results.is_along
+        without_references = not results.is_flow
         references = [] if without_references else arguments.reference or find_references(results)
         for path in references:
             read_reference(path)
@@ -80,6 +81,8 @@ def main():
         plot_along(results, pictures)
     elif results.is_population:
         plot_population(results, pictures)
+    elif results.is_pah:
+        plot_molecules(results, pictures)
     elif results.is_flame:
         plot_flame(results, pictures)
         plot_branch(results, pictures)

@@ -16,7 +16,7 @@ def plot_fields(results, names, pictures):
     if results.is_flame:
         there = dict(results.profile())
         find, known = there.get, list(there)
-    elif not (results.is_reactor or results.is_population or results.is_along) and results.steps:
+    elif results.is_flow and results.steps:
         find, known = results.field, list(results.fields(results.steps[-1]))
     else:
         raise ResultsError(f"{results.folder}: --fields is for the results of flows and one-dimensional flames")
