@@ -30,11 +30,13 @@ def _plot_history(columns, pictures):
             mean, error = np.asarray(columns[name]), np.asarray(columns[f"{name}_error"])
             if not np.any(mean > 0):
                 continue
-            (line,) = axes.plot(factor * time, mean, label=name.removeprefix("sites_").removeprefix("events_").replace("_", " "))
+            label = name.replace("_rings", "-rings").removeprefix("sites_").removeprefix("events_")
+            (line,) = axes.plot(factor * time, np.where(mean > 0, mean, np.nan) if name.startswith("events_") else mean, label=label)
             axes.fill_between(factor * time, mean - 2 * error, mean + 2 * error, color=line.get_color(), alpha=0.25, lw=0)
         axes.set_ylabel(f"{title} of a molecule")
         axes.legend(fontsize=7)
     panels[1, 1].set_yscale("log")
+    panels[1, 1].set_ylim(bottom=1e-3)  # rarer ones are a few events of all molecules
     for axes in panels[1]:
         axes.set_xlabel(f"time, {unit}")
     pictures.save(figure, "history")
