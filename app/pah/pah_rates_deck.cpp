@@ -3,17 +3,23 @@
 #include <fmt/format.h>
 
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace lampblack::app {
 namespace {
 
 // Those that are the surface's of soot, as particles.surface has them.
-constexpr std::pair<const char*, RateConstant SurfaceRateConstants::*> edgeRateKeys[] = {
-    {"open_by_h", &SurfaceRateConstants::openByH},        {"close_by_h2", &SurfaceRateConstants::closeByH2},
-    {"open_by_oh", &SurfaceRateConstants::openByOH},      {"close_by_h2o", &SurfaceRateConstants::closeByH2O},
-    {"close_by_h", &SurfaceRateConstants::closeByH},      {"growth_armchair", &SurfaceRateConstants::growth}};
+struct EdgeRateKey {
+  const char *name, *description;
+  RateConstant SurfaceRateConstants::*value;
+};
+constexpr EdgeRateKey edgeRateKeys[] = {
+    {"open_by_h", "H opens a C-H of the edge", &SurfaceRateConstants::openByH},
+    {"close_by_h2", "H2 closes a radical of the edge", &SurfaceRateConstants::closeByH2},
+    {"open_by_oh", "OH opens a C-H of the edge", &SurfaceRateConstants::openByOH},
+    {"close_by_h2o", "H2O closes a radical of the edge", &SurfaceRateConstants::closeByH2O},
+    {"close_by_h", "H closes a radical of the edge", &SurfaceRateConstants::closeByH},
+    {"growth_armchair", "C2H2 + radical armchair: a ring grows", &SurfaceRateConstants::growth}};
 
 std::string textOf(const RateSum& sum) {
   std::string text;
@@ -27,11 +33,10 @@ DeckSchema rateTable(const std::string& prefix) {
   DeckSchema schema;
   const PahRateConstants published;
   const std::string law = ": A T^n exp(-E/(R T)) as [A, n, E], cm^3, mol, s and kcal";
-  for (const auto& [name, value] : edgeRateKeys)
-    schema.add(numberKey(prefix + name, std::string("Rate constant of C-H at edges, as particles.surface has it") +
-                                            (value == &SurfaceRateConstants::growth ? " (growth)" : "") + law + ".")
+  for (const EdgeRateKey& key : edgeRateKeys)
+    schema.add(numberKey(prefix + key.name, std::string(key.description) + law + ".")
                    .list(3)
-                   .byDefault(textOf({published.surface.*value})));
+                   .byDefault(textOf({published.surface.*key.value})));
   for (const PahRateName& name : pahRateNames)
     schema.add(numberKey(prefix + name.name, std::string(name.description) + law +
                                                  "; more threes are channels that add up.")
@@ -63,8 +68,8 @@ RateSum readSum(const Deck& deck, const std::string& key) {
 // What this deck gives.
 void readTable(const Deck& deck, const std::string& prefix, PahRateConstants& constants) {
   const auto given = [&](const char* name) { return deck.isGiven(prefix + name); };
-  for (const auto& [name, value] : edgeRateKeys)
-    if (given(name)) constants.surface.*value = readSum(deck, prefix + name)[0];
+  for (const EdgeRateKey& key : edgeRateKeys)
+    if (given(key.name)) constants.surface.*key.value = readSum(deck, prefix + key.name)[0];
   for (const PahRateName& name : pahRateNames)
     if (given(name.name)) constants.*name.value = readSum(deck, prefix + name.name);
   if (given("five_equilibrium")) {

@@ -102,6 +102,15 @@ TEST(MoleculeLattice, SitesThatDependOnWhatIsNearAreFound) {
   }
 }
 
+// Benz[a]anthracene and its mirror image: the ring with four H is to one side of the armchair alone.
+TEST(MoleculeLattice, AnArmchairSeesARingWithFourHToEitherSide) {
+  for (const LatticeCell& fourth : {LatticeCell{2, 0}, LatticeCell{-2, 2}}) {
+    const Molecule molecule(std::vector<LatticeCell>{{0, 0}, {1, 0}, {-1, 1}, fourth});
+    EXPECT_EQ(molecule.count(SiteGroup::FE3), 2U);
+    EXPECT_EQ(molecule.count(SiteGroup::AC_FE3), 1U);
+  }
+}
+
 TEST(MoleculeLattice, CellsThatAreNoMoleculeAreRefused) {
   const auto refused = [](std::vector<LatticeCell> six, std::vector<LatticeCell> five = {}) {
     return lampblack::test::messageOf<InputError>([&] { Molecule(six, five); });
