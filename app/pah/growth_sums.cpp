@@ -73,8 +73,8 @@ const std::vector<Quantity>& growthQuantities() {
     for (const char* name : nearGroupNames)
       all.push_back({std::string("sites_") + name, "1", std::string("sites that are ") + name});
     for (const PahProcessRow& row : pahProcesses)
-      all.push_back({std::string("events_") + row.name, "1",
-                     std::string("events since the start in which ") + row.description});
+      all.push_back(
+          {std::string("events_") + row.name, "1", std::string("events since the start in which ") + row.description});
     for (const PahProcessRow& row : pahProcesses)
       all.push_back({std::string("void_") + row.name, "1",
                      std::string("events ") + row.name + " since the start that another ring was in the way of"});

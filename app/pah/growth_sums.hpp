@@ -1,5 +1,5 @@
-// Sums over molecules that grew: of each quantity at each row, and of how many had which formula. All are whole numbers,
-// so that sums are exact, and the same however molecules are spread over ranks and runs.
+// Sums over molecules that grew: of each quantity at each row, and of how many had which formula. All are whole
+// numbers, so that sums are exact, and the same however molecules are spread over ranks and runs.
 #pragma once
 
 #include <mpi.h>

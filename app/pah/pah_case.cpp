@@ -98,10 +98,9 @@ std::array<bool, pahProcessCount> readProcesses(const Deck& deck) {
     return active;
   }
   for (const std::string& name : deck.strings("processes"))
-    active[static_cast<std::size_t>(std::ranges::find(pahProcesses, name, [](const PahProcessRow& row) {
-                                      return std::string(row.name);
-                                    }) -
-                                    pahProcesses.begin())] = true;
+    active[static_cast<std::size_t>(
+        std::ranges::find(pahProcesses, name, [](const PahProcessRow& row) { return std::string(row.name); }) -
+        pahProcesses.begin())] = true;
   return active;
 }
 
@@ -139,8 +138,9 @@ DeckSchema pahSchema() {
   for (const PahProcessRow& row : pahProcesses) processes.emplace_back(row.name);
   schema.add(choiceKey("problem", {"pah"}, "What is solved."))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
-      .add(stringKey("mechanism", "Mechanism that has the species of gas.file or gas.flame: a file in Cantera's YAML "
-                                  "format, relative to the deck, or the name of one that ships.")
+      .add(stringKey("mechanism",
+                     "Mechanism that has the species of gas.file or gas.flame: a file in Cantera's YAML "
+                     "format, relative to the deck, or the name of one that ships.")
                .optional())
       .add(stringKey("phase", "Name of the phase of the mechanism file; without it the first ideal gas.").optional());
   schema.section("molecule", Presence::required, "The molecule at the start. Either 'name' or 'cells'.")
@@ -158,17 +158,19 @@ DeckSchema pahSchema() {
                       "said. Absent: no limit.")
                .optional()
                .atLeast(1));
-  schema.section("gas", Presence::required,
-                 "The gas. Either temperature, pressure, mole_fractions and end, for one that stays as it is, or 'file' "
-                 "or 'flame'.")
+  schema
+      .section("gas", Presence::required,
+               "The gas. Either temperature, pressure, mole_fractions and end, for one that stays as it is, or 'file' "
+               "or 'flame'.")
       .add(quantityKey("gas.temperature", units::temperature, "Temperature.").optional().above(0))
       .add(quantityKey("gas.pressure", units::pressure, "Pressure.").optional().above(0))
-      .add(numberKey("gas.mole_fractions.*",
-                     "Mole fraction of a species that molecules react with, one of H, H2, OH, H2O, O2, C2H2; all others "
-                     "take no part and are not named.")
-               .optional()
-               .atLeast(0)
-               .atMost(1));
+      .add(
+          numberKey("gas.mole_fractions.*",
+                    "Mole fraction of a species that molecules react with, one of H, H2, OH, H2O, O2, C2H2; all others "
+                    "take no part and are not named.")
+              .optional()
+              .atLeast(0)
+              .atMost(1));
   addGivenGasKeys(schema);
   schema
       .add(choiceKey("processes", processes,
@@ -192,7 +194,9 @@ DeckSchema pahSchema() {
   addPahRateKeys(schema);
   addRowKeys(schema);
   schema
-      .add(quantityKey("output.spectra", units::time, "Times of mass spectra besides that of the end.").list().optional())
+      .add(quantityKey("output.spectra", units::time, "Times of mass spectra besides that of the end.")
+               .list()
+               .optional())
       .add(integerKey("output.molecules", "Number of molecules whose rings are written at the end, for pictures.")
                .byDefault("12")
                .atLeast(0)

@@ -24,8 +24,8 @@ PahTable pahHistory(const PahCase& pah, const GrowthSums& sums) {
   const std::vector<Quantity>& quantities = growthQuantities();
   for (const Quantity& quantity : quantities) addRepeatColumns(quantity, table.columns);
   for (std::size_t row = 0; row < pah.recorded.size(); ++row) {
-    table.rows.insert(table.rows.end(), {pah.timeOf(row), pah.path.points[pah.recorded[row]].gas.temperature,
-                                         leftBy(pah, sums, row)});
+    table.rows.insert(table.rows.end(),
+                      {pah.timeOf(row), pah.path.points[pah.recorded[row]].gas.temperature, leftBy(pah, sums, row)});
     const std::uint64_t count = sums.count(row);
     const RepeatIntervals intervals(std::max<std::uint64_t>(count, 2));
     for (std::size_t q = 0; q < quantities.size(); ++q)

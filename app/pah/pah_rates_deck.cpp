@@ -23,8 +23,7 @@ constexpr EdgeRateKey edgeRateKeys[] = {
 
 std::string textOf(const RateSum& sum) {
   std::string text;
-  for (const RateConstant& k : sum)
-    text += fmt::format("{}{}, {}, {}", text.empty() ? "" : ", ", k.A, k.n, k.E);
+  for (const RateConstant& k : sum) text += fmt::format("{}{}, {}, {}", text.empty() ? "" : ", ", k.A, k.n, k.E);
   return "[" + text + "]";
 }
 
@@ -38,10 +37,10 @@ DeckSchema rateTable(const std::string& prefix) {
                    .list(3)
                    .byDefault(textOf({published.surface.*key.value})));
   for (const PahRateName& name : pahRateNames)
-    schema.add(numberKey(prefix + name.name, std::string(name.description) + law +
-                                                 "; more threes are channels that add up.")
-                   .list()
-                   .byDefault(textOf(published.*name.value)));
+    schema.add(
+        numberKey(prefix + name.name, std::string(name.description) + law + "; more threes are channels that add up.")
+            .list()
+            .byDefault(textOf(published.*name.value)));
   schema.add(numberKey(prefix + "five_equilibrium",
                        "Equilibrium constant of five_add_h, by which its reverse (1/s) follows" + law + ".")
                  .list(3)

@@ -72,21 +72,23 @@ class PreparedPah : public PreparedRun {
           options.restart->empty() ? newestCheckpoint(comm_, options.folder) : wholeCheckpoint(comm_, *options.restart);
       progress = loadPahProgress(comm_, *restart, case_);
     }
-    recordedRun(comm_, deck_, options, case_.seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-      if (restart) {
-        record.restartedFrom = restart->file.string();
-        printWarnings(restart->damaged);
-        if (rank_ == 0) fmt::print("continues from {}, {} molecules\n", restart->file.string(), progress.done);
-      }
-      const double begin = MPI_Wtime();
-      growAll(folder, progress);
-      const double seconds = MPI_Wtime() - begin;
-      record.stages = {{"molecules", seconds, seconds, seconds}};
-      record.simulatedTime = case_.timeOf(case_.recorded.size() - 1) - case_.timeOf(0);
-      record.steps = static_cast<std::int64_t>(progress.sums.events());
-      record.peakMemoryPerRank = peakMemory(comm_);
-      write(folder, info, progress.sums, record);
-    });
+    recordedRun(comm_, deck_, options, case_.seed,
+                [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+                  if (restart) {
+                    record.restartedFrom = restart->file.string();
+                    printWarnings(restart->damaged);
+                    if (rank_ == 0)
+                      fmt::print("continues from {}, {} molecules\n", restart->file.string(), progress.done);
+                  }
+                  const double begin = MPI_Wtime();
+                  growAll(folder, progress);
+                  const double seconds = MPI_Wtime() - begin;
+                  record.stages = {{"molecules", seconds, seconds, seconds}};
+                  record.simulatedTime = case_.timeOf(case_.recorded.size() - 1) - case_.timeOf(0);
+                  record.steps = static_cast<std::int64_t>(progress.sums.events());
+                  record.peakMemoryPerRank = peakMemory(comm_);
+                  write(folder, info, progress.sums, record);
+                });
   }
 
  private:

@@ -13,8 +13,11 @@ class Division {
  public:
   Division(const PahRateConstants& constants, const std::array<bool, pahProcessCount>& active, double rateChange,
            double duration, std::vector<GrowthInterval>& intervals)
-      : constants_(constants), active_(active), rateChange_(rateChange),
-        negligible_(duration > 0 ? negligibleEvents / duration : 0), intervals_(intervals) {}
+      : constants_(constants),
+        active_(active),
+        rateChange_(rateChange),
+        negligible_(duration > 0 ? negligibleEvents / duration : 0),
+        intervals_(intervals) {}
 
   [[nodiscard]] PahRates ratesAt(const GasSample& sample) const {
     PahRates rates = pahRates(constants_, sample.gas.temperature, sample.concentrations);
@@ -63,8 +66,7 @@ GrowthPath growthPath(const ParticlePath& path, const std::vector<std::size_t>& 
   PahRates before{};
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PahRates rates = division.ratesAt(points[i]);
-    if (i > 0 && points[i].time > points[i - 1].time)
-      division.divide(points[i - 1], points[i], 0, 1, before, rates, 0);
+    if (i > 0 && points[i].time > points[i - 1].time) division.divide(points[i - 1], points[i], 0, 1, before, rates, 0);
     before = rates;
     for (; next < recorded.size() && recorded[next] == i; ++next) result.records.push_back(result.intervals.size());
   }

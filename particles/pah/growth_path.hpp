@@ -1,6 +1,6 @@
 // The gas along a path as molecules see it: a row of times over which all rates stay as they are, the same for each
-// molecule. Intervals between samples of the gas are halved until no rate changes by more than a part of itself from one
-// end to the other; rates are those of the middle. Rates so small that nothing comes of them on the whole path may
+// molecule. Intervals between samples of the gas are halved until no rate changes by more than a part of itself from
+// one end to the other; rates are those of the middle. Rates so small that nothing comes of them on the whole path may
 // change by more.
 #pragma once
 
@@ -26,7 +26,7 @@ struct GrowthPath {
 // `recorded`: points of the path, rising. `rateChange`: the largest part, above zero. The processes that are not in
 // `active` have no rate. NumericsError as pahRates().
 [[nodiscard]] GrowthPath growthPath(const ParticlePath& path, const std::vector<std::size_t>& recorded,
-                                    const PahRateConstants& constants,
-                                    const std::array<bool, pahProcessCount>& active, double rateChange);
+                                    const PahRateConstants& constants, const std::array<bool, pahProcessCount>& active,
+                                    double rateChange);
 
 }  // namespace lampblack::particles

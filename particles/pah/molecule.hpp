@@ -1,6 +1,6 @@
 // A flat molecule of hexagonal rings, some of whose zigzags are bridged by rings of five carbon atoms. It is a set of
-// cells of the lattice; the sites of its edge, in their order around it, are kept up to date as rings come and go, which
-// changes at most five of them. docs/theory/pah.md.
+// cells of the lattice; the sites of its edge, in their order around it, are kept up to date as rings come and go,
+// which changes at most five of them. docs/theory/pah.md.
 //
 // Sites are numbered; a number is valid until the next event. Sizes are limited: NumericsError above mostSites.
 #pragma once
@@ -68,11 +68,11 @@ class Molecule {
   static constexpr CellBits ringBit = 1U << 12U, fiveRingBit = 1U << 13U;
 
   struct Site {
-    std::int32_t cell = 0;                // the empty one
-    SiteNumber previous = 0, next = 0;    // in the direction of next the run of rings ends
-    std::array<SiteNumber, 2> place{};    // in the groups of `group`
-    std::uint8_t first = 0, rings = 0;    // direction of the first ring of its run, and how many there are
-    SiteType type = SiteType::FE;         // R5 where it is bridged
+    std::int32_t cell = 0;              // the empty one
+    SiteNumber previous = 0, next = 0;  // in the direction of next the run of rings ends
+    std::array<SiteNumber, 2> place{};  // in the groups of `group`
+    std::uint8_t first = 0, rings = 0;  // direction of the first ring of its run, and how many there are
+    SiteType type = SiteType::FE;       // R5 where it is bridged
     bool bridged = false;
     std::array<SiteGroup, 2> group{SiteGroup::none, SiteGroup::none};  // by its type, and by what is near
   };
@@ -122,9 +122,9 @@ class Molecule {
   std::array<std::int32_t, 6> steps_{};  // from a cell to its neighbours
   std::vector<CellBits> lattice_;
 
-  std::vector<Site> sites_;             // a pool; `next` chains those that are not in use
+  std::vector<Site> sites_;  // a pool; `next` chains those that are not in use
   SiteNumber unused_ = 0, someSite_ = 0;
-  std::vector<SiteNumber> members_;     // groups x size of the pool
+  std::vector<SiteNumber> members_;  // groups x size of the pool
   std::array<SiteNumber, siteGroups> groupSizes_{};
   std::array<SiteNumber, siteTypes> counts_{};
   std::size_t siteCount_ = 0, sixRings_ = 0, fiveRings_ = 0;

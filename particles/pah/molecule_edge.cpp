@@ -156,7 +156,8 @@ void Molecule::requireConsistent() const {
       require(a.group[g] == SiteGroup::none || member(a.group[g], a.place[g]) == here, "the members of a group");
     // Each R5 makes two of those that had H carry none, one for either site beside it.
     edgeCarbon += a.bridged ? 0U : a.rings - 1U;
-    edgeCarbon += static_cast<std::size_t>(sites_[a.previous].bridged) + static_cast<std::size_t>(sites_[a.next].bridged);
+    edgeCarbon +=
+        static_cast<std::size_t>(sites_[a.previous].bridged) + static_cast<std::size_t>(sites_[a.next].bridged);
   }
   require(here == someSite_, "the sites are no ring");
   require(hydrogen() + fiveRings_ == edgeCarbon + 6, "H - B is not 6 - R5");

@@ -12,10 +12,12 @@
 namespace lampblack::particles {
 
 // G grows, D desorbs, L closes, C converts, M moves, O oxidises; then the size of the ring and the site.
+// clang-format off
 enum class PahProcess : std::uint8_t {
-  G6R_AC, G6R_FE, D6R_FE_AC, D6R_FE3, L6_BY6, G5R_ZZ, D5R_R5,              // clang-format off
-  C5R_RFE, C5R_RAC, M5R_RZZ, C6R_AC_FE3, O6R_FE3, O6R_FE_HACA              // clang-format on
+  G6R_AC, G6R_FE, D6R_FE_AC, D6R_FE3, L6_BY6, G5R_ZZ, D5R_R5,
+  C5R_RFE, C5R_RAC, M5R_RZZ, C6R_AC_FE3, O6R_FE3, O6R_FE_HACA
 };
+// clang-format on
 
 struct PahProcessRow {
   const char* name;

@@ -114,8 +114,7 @@ PahRates pahRates(const PahRateConstants& constants, double temperature, std::sp
   const double add = k(c.fiveAddH), leave = k(c.fiveLoss), move = k(c.fiveMove);
   const double without = add / k(c.fiveEquilibrium) + k(c.fiveLoseH) * H + leave + move;
   const double withH = add * H / without, radicalLeaves = k(c.fiveRadicalLoss);
-  const double radical =
-      k(c.fiveOpenByH) * H / (k(c.fiveCloseByH2) * H2 + k(c.fiveCloseByH) * H + radicalLeaves);
+  const double radical = k(c.fiveOpenByH) * H / (k(c.fiveCloseByH2) * H2 + k(c.fiveCloseByH) * H + radicalLeaves);
   rate(PahProcess::D5R_R5) = withH * leave + radical * radicalLeaves;
   rate(PahProcess::M5R_RZZ) = rate(PahProcess::C5R_RAC) = withH * move;
   const double grows = rate(PahProcess::G6R_FE);

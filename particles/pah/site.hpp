@@ -11,15 +11,17 @@
 namespace lampblack::particles {
 
 // By the number of rings around the empty cell: free edge, zigzag, armchair and two bays. R5: a zigzag that a ring of
-// five carbon atoms bridges. `...R5`: a site beside one of these, `R5...R5`: one between two.
+// five carbon atoms bridges. R...: a site beside one of these, R...R: one between two.
+// clang-format off
 enum class SiteType : std::uint8_t {
-  FE, ZZ, AC, BY5, BY6, R5,                // clang-format off
+  FE, ZZ, AC, BY5, BY6, R5,
   RFE, RZZ, RAC, RBY5, RBY6,
-  RFER, RZZR, RACR, RBY5R, RBY6R           // clang-format on
+  RFER, RZZR, RACR, RBY5R, RBY6R
 };
+// clang-format on
 inline constexpr std::size_t siteTypes = 16;
-inline constexpr std::array<const char*, siteTypes> siteTypeNames{"FE",  "ZZ",   "AC",   "BY5",  "BY6",  "R5",
-                                                                  "RFE", "RZZ",  "RAC",  "RBY5", "RBY6", "RFER",
+inline constexpr std::array<const char*, siteTypes> siteTypeNames{"FE",   "ZZ",   "AC",    "BY5",  "BY6",  "R5",
+                                                                  "RFE",  "RZZ",  "RAC",   "RBY5", "RBY6", "RFER",
                                                                   "RZZR", "RACR", "RBY5R", "RBY6R"};
 
 // The type of a site with so many rings around it that is no R5, and has so many R5 beside it.
@@ -37,15 +39,24 @@ inline constexpr std::size_t siteGroups = static_cast<std::size_t>(SiteGroup::no
 // The group that all sites of a type are in.
 constexpr SiteGroup groupOf(SiteType type) {
   switch (type) {
-    case SiteType::FE: return SiteGroup::FE;
-    case SiteType::ZZ: return SiteGroup::ZZ;
-    case SiteType::AC: return SiteGroup::AC;
-    case SiteType::BY6: return SiteGroup::BY6;
-    case SiteType::R5: return SiteGroup::R5;
-    case SiteType::RFE: return SiteGroup::RFE;
-    case SiteType::RZZ: return SiteGroup::RZZ;
-    case SiteType::RAC: return SiteGroup::RAC;
-    default: return SiteGroup::none;
+    case SiteType::FE:
+      return SiteGroup::FE;
+    case SiteType::ZZ:
+      return SiteGroup::ZZ;
+    case SiteType::AC:
+      return SiteGroup::AC;
+    case SiteType::BY6:
+      return SiteGroup::BY6;
+    case SiteType::R5:
+      return SiteGroup::R5;
+    case SiteType::RFE:
+      return SiteGroup::RFE;
+    case SiteType::RZZ:
+      return SiteGroup::RZZ;
+    case SiteType::RAC:
+      return SiteGroup::RAC;
+    default:
+      return SiteGroup::none;
   }
 }
 

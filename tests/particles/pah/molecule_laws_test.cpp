@@ -1,5 +1,5 @@
-// Laws of the jump process against closed forms and master equations (exponentials of the generator over all molecules of
-// a number of rings, made by another program: docs/theory/pah.md). Repeats have 3.3 standard errors.
+// Laws of the jump process against closed forms and master equations (exponentials of the generator over all molecules
+// of a number of rings, made by another program: docs/theory/pah.md). Repeats have 3.3 standard errors.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -92,17 +92,71 @@ struct MasterEquation {
   std::map<std::size_t, double> ringNumber;  // probability of so many rings
 };
 
-const MasterEquation masterEquations[] = {
-    {"pyrene", 1500, 0.01, 0.1, false, 9, 5e-6, 3.815529e-04, 18.18044145, 11.03193915, 4.57425115, 0,
-     {{4, 0.61121019}, {5, 0.24981409}, {6, 0.10165728}, {7, 0.02838533}}},
-    {"phenanthrene", 2100, 0.01, 0.001, false, 8, 2e-4, 6.447430e-05, 6.37818505, 6.16628588, 1.10594959, 0,
-     {{1, 0.94239689}, {2, 0.03510327}, {4, 0.01823772}}},
-    {"naphthalene", 1800, 0.001, 0.1, false, 8, 5e-5, 2.701723e-02, 16.07966626, 10.80692214, 3.63637206, 0,
-     {{1, 0.09529521}, {2, 0.20332868}, {3, 0.20236166}, {4, 0.18829791}}},
-    {"pyrene", 1500, 0.01, 0.1, true, 7, 5e-6, 1.311775e-02, 18.32999742, 10.93821240, 4.51672391, 0.17916860,
-     {{4, 0.50457845}, {5, 0.31677591}, {6, 0.12659145}}},
-    {"naphthalene", 2100, 0.01, 0.001, true, 6, 1e-3, 2.360062e-04, 6.17724658, 6.08587446, 1.04520852, 0.00047754,
-     {{1, 0.96029020}, {2, 0.03574942}, {4, 0.00213921}}}};
+const MasterEquation masterEquations[] = {{"pyrene",
+                                           1500,
+                                           0.01,
+                                           0.1,
+                                           false,
+                                           9,
+                                           5e-6,
+                                           3.815529e-04,
+                                           18.18044145,
+                                           11.03193915,
+                                           4.57425115,
+                                           0,
+                                           {{4, 0.61121019}, {5, 0.24981409}, {6, 0.10165728}, {7, 0.02838533}}},
+                                          {"phenanthrene",
+                                           2100,
+                                           0.01,
+                                           0.001,
+                                           false,
+                                           8,
+                                           2e-4,
+                                           6.447430e-05,
+                                           6.37818505,
+                                           6.16628588,
+                                           1.10594959,
+                                           0,
+                                           {{1, 0.94239689}, {2, 0.03510327}, {4, 0.01823772}}},
+                                          {"naphthalene",
+                                           1800,
+                                           0.001,
+                                           0.1,
+                                           false,
+                                           8,
+                                           5e-5,
+                                           2.701723e-02,
+                                           16.07966626,
+                                           10.80692214,
+                                           3.63637206,
+                                           0,
+                                           {{1, 0.09529521}, {2, 0.20332868}, {3, 0.20236166}, {4, 0.18829791}}},
+                                          {"pyrene",
+                                           1500,
+                                           0.01,
+                                           0.1,
+                                           true,
+                                           7,
+                                           5e-6,
+                                           1.311775e-02,
+                                           18.32999742,
+                                           10.93821240,
+                                           4.51672391,
+                                           0.17916860,
+                                           {{4, 0.50457845}, {5, 0.31677591}, {6, 0.12659145}}},
+                                          {"naphthalene",
+                                           2100,
+                                           0.01,
+                                           0.001,
+                                           true,
+                                           6,
+                                           1e-3,
+                                           2.360062e-04,
+                                           6.17724658,
+                                           6.08587446,
+                                           1.04520852,
+                                           0.00047754,
+                                           {{1, 0.96029020}, {2, 0.03574942}, {4, 0.00213921}}}};
 
 TEST(MoleculeLaws, RunsHaveTheProbabilitiesOfTheMasterEquations) {
   constexpr std::size_t repeats = 20000;

@@ -66,12 +66,16 @@ struct KnownMolecule {
 };
 
 TEST(MoleculeLattice, NamedMoleculesHaveTheirAtomsAndSites) {
-  const KnownMolecule known[] = {
-      {"benzene", 6, 6, 1, {6, 0, 0, 0, 0}},         {"naphthalene", 10, 8, 2, {6, 2, 0, 0, 0}},
-      {"anthracene", 14, 10, 3, {6, 4, 0, 0, 0}},    {"phenanthrene", 14, 10, 3, {7, 2, 1, 0, 0}},
-      {"pyrene", 16, 10, 4, {6, 4, 0, 0, 0}},        {"triphenylene", 18, 12, 4, {9, 0, 3, 0, 0}},
-      {"benzo[ghi]perylene", 22, 12, 6, {7, 4, 1, 0, 0}}, {"coronene", 24, 12, 7, {6, 6, 0, 0, 0}},
-      {"ovalene", 32, 14, 10, {6, 8, 0, 0, 0}},      {"circumcoronene", 54, 18, 19, {6, 12, 0, 0, 0}}};
+  const KnownMolecule known[] = {{"benzene", 6, 6, 1, {6, 0, 0, 0, 0}},
+                                 {"naphthalene", 10, 8, 2, {6, 2, 0, 0, 0}},
+                                 {"anthracene", 14, 10, 3, {6, 4, 0, 0, 0}},
+                                 {"phenanthrene", 14, 10, 3, {7, 2, 1, 0, 0}},
+                                 {"pyrene", 16, 10, 4, {6, 4, 0, 0, 0}},
+                                 {"triphenylene", 18, 12, 4, {9, 0, 3, 0, 0}},
+                                 {"benzo[ghi]perylene", 22, 12, 6, {7, 4, 1, 0, 0}},
+                                 {"coronene", 24, 12, 7, {6, 6, 0, 0, 0}},
+                                 {"ovalene", 32, 14, 10, {6, 8, 0, 0, 0}},
+                                 {"circumcoronene", 54, 18, 19, {6, 12, 0, 0, 0}}};
   EXPECT_EQ(std::size(known), moleculeNames().size());
   for (const KnownMolecule& k : known) {
     const Molecule molecule = test::named(k.name);
@@ -92,9 +96,14 @@ TEST(MoleculeLattice, SitesThatDependOnWhatIsNearAreFound) {
   };
   // Naphthalene and anthracene end in two rings with four H; phenanthrene too, to both sides of its armchair; its
   // middle ring has one free edge. Pyrene has two rings with three H, two with two. Benzene's ring must not leave.
-  for (const Known& k : {Known{"benzene", 0, 0, 0}, {"naphthalene", 2, 0, 0}, {"anthracene", 2, 0, 0},
-                         {"phenanthrene", 2, 1, 1}, {"pyrene", 0, 2, 0}, {"triphenylene", 3, 0, 3},
-                         {"benzo[ghi]perylene", 0, 3, 0}, {"coronene", 0, 6, 0}}) {
+  for (const Known& k : {Known{"benzene", 0, 0, 0},
+                         {"naphthalene", 2, 0, 0},
+                         {"anthracene", 2, 0, 0},
+                         {"phenanthrene", 2, 1, 1},
+                         {"pyrene", 0, 2, 0},
+                         {"triphenylene", 3, 0, 3},
+                         {"benzo[ghi]perylene", 0, 3, 0},
+                         {"coronene", 0, 6, 0}}) {
     const Molecule molecule = test::named(k.name);
     EXPECT_EQ(molecule.count(SiteGroup::FE3), k.FE3) << k.name;
     EXPECT_EQ(molecule.count(SiteGroup::FE_HACA), k.FE_HACA) << k.name;
@@ -139,6 +148,8 @@ TEST(MoleculeLattice, TheLatticeGrowsWithTheMolecule) {
     (void)molecule.apply(PahProcess::G6R_FE, molecule.member(SiteGroup::FE, i), random);
   }
   molecule.requireConsistent();
+  // Cells keep their names.
+  EXPECT_THAT(molecule.cells(false), testing::Contains(LatticeCell{0, 0}));
   // An acene of 200 rings: each ring on the far end.
   std::vector<LatticeCell> acene;
   for (int q = 0; q < 200; ++q) acene.push_back({q, -3});

@@ -28,9 +28,9 @@ inline PahRateConstants referenceConstants() {
   for (const PahRateName& name : pahRateNames)
     for (RateConstant& k : c.*name.value) k.E *= ratio;
   c.fiveEquilibrium.E *= ratio;
-  for (const auto k : {&SurfaceRateConstants::openByH, &SurfaceRateConstants::closeByH2,
-                       &SurfaceRateConstants::openByOH, &SurfaceRateConstants::closeByH2O,
-                       &SurfaceRateConstants::closeByH, &SurfaceRateConstants::growth})
+  for (const auto k :
+       {&SurfaceRateConstants::openByH, &SurfaceRateConstants::closeByH2, &SurfaceRateConstants::openByOH,
+        &SurfaceRateConstants::closeByH2O, &SurfaceRateConstants::closeByH, &SurfaceRateConstants::growth})
     (c.surface.*k).E *= ratio;
   return c;
 }

@@ -21,14 +21,24 @@ TEST(PahRates, AreThoseOfTheReference) {
     std::array<double, 11> rates;  // in the order of the processes
   };
   const Row rows[] = {
-      {1200, {1.22429664e+04, 4.16066236e+03, 5.55703523e-04, 3.60555873e-01, 1.35973652e+04, 1.66183357e+03, 2.14327375e+03, 1.67505608e+03, 7.13325344e+02, 7.13325344e+02, 3.60555873e-01}},
-      {1500, {4.21212476e+04, 1.64276207e+04, 2.25944144e-01, 4.74177439e+02, 3.42844556e+04, 1.03937137e+04, 3.04276175e+04, 3.17234640e+02, 1.66206449e+03, 1.66206449e+03, 4.74177439e+02}},
-      {1800, {8.87392011e+04, 3.58992979e+04, 1.11066932e+01, 3.27658135e+04, 6.44225916e+04, 2.98412106e+04, 1.06234969e+05, 8.07689369e+01, 2.59472098e+03, 2.59472098e+03, 3.27658135e+04}},
-      {2100, {1.43895988e+05, 5.86334995e+04, 1.63748012e+02, 1.01970270e+05, 1.02290769e+05, 5.46333641e+04, 2.58999841e+05, 2.73625926e+01, 3.44944423e+03, 3.44944423e+03, 1.01970270e+05}},
-      {2400, {2.00429423e+05, 8.19101952e+04, 1.14602995e+03, 1.38844650e+05, 1.45988098e+05, 7.54768143e+04, 5.11795865e+05, 1.12805205e+01, 4.11238859e+03, 4.11238859e+03, 1.38844650e+05}},
+      {1200,
+       {1.22429664e+04, 4.16066236e+03, 5.55703523e-04, 3.60555873e-01, 1.35973652e+04, 1.66183357e+03, 2.14327375e+03,
+        1.67505608e+03, 7.13325344e+02, 7.13325344e+02, 3.60555873e-01}},
+      {1500,
+       {4.21212476e+04, 1.64276207e+04, 2.25944144e-01, 4.74177439e+02, 3.42844556e+04, 1.03937137e+04, 3.04276175e+04,
+        3.17234640e+02, 1.66206449e+03, 1.66206449e+03, 4.74177439e+02}},
+      {1800,
+       {8.87392011e+04, 3.58992979e+04, 1.11066932e+01, 3.27658135e+04, 6.44225916e+04, 2.98412106e+04, 1.06234969e+05,
+        8.07689369e+01, 2.59472098e+03, 2.59472098e+03, 3.27658135e+04}},
+      {2100,
+       {1.43895988e+05, 5.86334995e+04, 1.63748012e+02, 1.01970270e+05, 1.02290769e+05, 5.46333641e+04, 2.58999841e+05,
+        2.73625926e+01, 3.44944423e+03, 3.44944423e+03, 1.01970270e+05}},
+      {2400,
+       {2.00429423e+05, 8.19101952e+04, 1.14602995e+03, 1.38844650e+05, 1.45988098e+05, 7.54768143e+04, 5.11795865e+05,
+        1.12805205e+01, 4.11238859e+03, 4.11238859e+03, 1.38844650e+05}},
   };
-  const PahProcess order[] = {PahProcess::G6R_AC, PahProcess::G6R_FE,  PahProcess::D6R_FE_AC, PahProcess::D6R_FE3,
-                              PahProcess::L6_BY6, PahProcess::G5R_ZZ,  PahProcess::D5R_R5,    PahProcess::C5R_RFE,
+  const PahProcess order[] = {PahProcess::G6R_AC,  PahProcess::G6R_FE,  PahProcess::D6R_FE_AC, PahProcess::D6R_FE3,
+                              PahProcess::L6_BY6,  PahProcess::G5R_ZZ,  PahProcess::D5R_R5,    PahProcess::C5R_RFE,
                               PahProcess::C5R_RAC, PahProcess::M5R_RZZ, PahProcess::C6R_AC_FE3};
   for (const Row& row : rows) {
     PahRates rates = test::referenceRates(row.temperature);
@@ -74,8 +84,10 @@ TEST(PahRates, TheFactorsOfTheTableMultiply) {
   changed.waysBay = 5;
   changed.waysZigzag = 1;
   PahRates rates = pahRates(changed, 1500, c);
-  for (const auto& [process, factor] : {std::pair{PahProcess::G6R_AC, 1.5}, {PahProcess::D6R_FE_AC, 2.0},
-                                        {PahProcess::L6_BY6, 2.5}, {PahProcess::G5R_ZZ, 2.0},
+  for (const auto& [process, factor] : {std::pair{PahProcess::G6R_AC, 1.5},
+                                        {PahProcess::D6R_FE_AC, 2.0},
+                                        {PahProcess::L6_BY6, 2.5},
+                                        {PahProcess::G5R_ZZ, 2.0},
                                         {PahProcess::G6R_FE, 1.0}})
     EXPECT_NEAR(rateOf(rates, process), factor * rateOf(published, process), 1e-12 * rateOf(rates, process));
   PahRateConstants perBenzene;
