@@ -145,12 +145,13 @@ DeckSchema pahSchema() {
       .add(stringKey("phase", "Name of the phase of the mechanism file; without it the first ideal gas.").optional());
   schema.section("molecule", Presence::required, "The molecule at the start. Either 'name' or 'cells'.")
       .add(choiceKey("molecule.name", moleculeNames(), "A molecule that is known by its name.").optional())
-      .add(integerKey("molecule.cells",
-                      "Its rings of six, as cells of a lattice of hexagons, two numbers each: [0, 0, 1, 0] is "
-                      "naphthalene. The neighbours of (q, r) are (q+1, r), (q, r+1), (q-1, r+1) and their opposites.")
+      .add(integerKey(
+               "molecule.cells",
+               "Rings of six of the molecule, as cells of a lattice of hexagons, two numbers each: [0, 0, 1, 0] is "
+               "naphthalene. The neighbours of (q, r) are (q+1, r), (q, r+1), (q-1, r+1) and their opposites.")
                .list()
                .optional())
-      .add(integerKey("molecule.five_rings", "Its rings of five, as cells between two of the rings of six.")
+      .add(integerKey("molecule.five_rings", "Rings of five of the molecule, as cells between two of the rings of six.")
                .list()
                .optional())
       .add(integerKey("molecule.most_rings",
@@ -162,8 +163,10 @@ DeckSchema pahSchema() {
       .section("gas", Presence::required,
                "The gas. Either temperature, pressure, mole_fractions and end, for one that stays as it is, or 'file' "
                "or 'flame'.")
-      .add(quantityKey("gas.temperature", units::temperature, "Temperature.").optional().above(0))
-      .add(quantityKey("gas.pressure", units::pressure, "Pressure.").optional().above(0))
+      .add(quantityKey("gas.temperature", units::temperature, "Temperature of a gas that stays as it is.")
+               .optional()
+               .above(0))
+      .add(quantityKey("gas.pressure", units::pressure, "Pressure of a gas that stays as it is.").optional().above(0))
       .add(
           numberKey("gas.mole_fractions.*",
                     "Mole fraction of a species that molecules react with, one of H, H2, OH, H2O, O2, C2H2; all others "

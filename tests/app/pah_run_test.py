@@ -48,6 +48,10 @@ def run(program, deck, out, *more, code=0):
     return result
 
 
+def results_of(out: pathlib.Path) -> dict:
+    return json.loads((out / "run.json").read_text(encoding="utf-8"))["results"]
+
+
 def differing(one: dict, other: dict) -> list:
     assert one.keys() == other.keys(), one.keys() ^ other.keys()
     return [name for name in one if one[name].tobytes() != other[name].tobytes()]
@@ -68,6 +72,9 @@ def check_numbers(data: dict, out: pathlib.Path) -> None:
     assert abs(data["spectrum/fraction"][last].sum() + left - 1) < 1e-12
     inside = data["spectrum/fraction"][last] / (1 - left)
     assert abs(inside @ data["spectrum/carbon"][last] / data["history/carbon"][-1] - 1) < 1e-12
+    count = round(2000 * (1 - left))
+    variance = inside @ (data["spectrum/carbon"][last] - data["history/carbon"][-1]) ** 2 * count / (count - 1)
+    assert abs(data["history/carbon_error"][-1] / np.sqrt(variance / count) - 1) < 1e-9
     four = data["spectrum/fraction"][last & (data["spectrum/rings"] == 4)].sum()
     assert abs(four - FOUR_RINGS) < 3.3 * np.sqrt(FOUR_RINGS * (1 - FOUR_RINGS) / 2000), four
     pyrene = (data["spectrum/carbon"] == 16) & (data["spectrum/hydrogen"] == 10)
@@ -99,6 +106,7 @@ def check_restarts(executable: str, mpiexec: list, folder: pathlib.Path, deck: p
     run(one, deck, whole, *running.settings("repeats=700"))
     different = differing(datasets(part / "results.h5"), datasets(whole / "results.h5"))
     assert not different, f"after a restart: other numbers in {different}"
+    assert results_of(part) == results_of(whole)
     for setting, message in (("molecule.name=coronene", "of another molecule"), ("gas.temperature=1600 K", "of another gas, rates or rows"),
                              ("seed=2", "of another seed"), ("repeats=200", "more than 'repeats: 200'"),
                              ("output.spectra=[3 us]", "of another gas, rates or rows")):
