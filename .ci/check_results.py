@@ -39,6 +39,16 @@ def check_population(folder):
     print(f"{folder}: {len(rows)} methods")
 
 
+def check_molecules(folder):
+    with h5py.File(folder / "results.h5", "r") as file:
+        history, spectrum, formulas = file["history"], file["spectrum"], file["molecules/formulas"]
+        assert np.all(np.diff(history["time"][()]) > 0), "the times do not rise"
+        rings = history["six_rings"][()] + history["five_rings"][()]
+        assert np.allclose(history["carbon"][()] - history["hydrogen"][()], 2 * (rings - 1)), "C - H is not 2 (R - 1)"
+        assert np.all(spectrum["molecules"][()] > 0) and len(formulas["carbon"]) > 0, "no molecules"
+        print(f"{folder}: {len(rings)} rows, {len(spectrum['time'])} formulas, {len(formulas['carbon'])} molecules drawn")
+
+
 def check_flame(folder):
     with h5py.File(folder / "results.h5", "r") as file:
         flame = file["flame"]
@@ -98,7 +108,7 @@ def main(folder):
         check_study(folder)
         return
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    kinds = {"reactor": check_reactor, "prescribed_gas": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "flame1d": check_flame}
+    kinds = {"reactor": check_reactor, "prescribed_gas": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "pah": check_molecules, "flame1d": check_flame}
     kinds.get(record["deck"]["problem"], check_flow)(folder)
 
 
