@@ -9,6 +9,8 @@
 namespace lampblack::io {
 namespace {
 
+using test::deckOf;
+using test::refusalOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -28,32 +30,19 @@ DeckSchema schema() {
   return made;
 }
 
-Deck deckOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return Deck::parse(text, "deck.yaml", overrides, schema());
-}
-
-std::string refusalOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    (void)deckOf(text, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(FormerNames, ADeckWithPresentNamesHasNoNotes) {
-  EXPECT_THAT(deckOf("problem: gas\nparticles: {frozen_gas: 1 s}\n").notes(), IsEmpty());
+  EXPECT_THAT(deckOf(schema(), "problem: gas\nparticles: {frozen_gas: 1 s}\n").notes(), IsEmpty());
 }
 
 TEST(FormerNames, AreReadAsThePresentOnesWithANoteEach) {
-  const Deck deck = deckOf(
-      "problem: air\n"
-      "particles:\n"
-      "  hold_gas: 2 ms\n"
-      "methods:\n"
-      "  one: {claims: [M0, m1]}\n"
-      "points:\n"
-      "  - {segments: 7, ratio: 2}\n");
+  const Deck deck = deckOf(schema(),
+                           "problem: air\n"
+                           "particles:\n"
+                           "  hold_gas: 2 ms\n"
+                           "methods:\n"
+                           "  one: {claims: [M0, m1]}\n"
+                           "points:\n"
+                           "  - {segments: 7, ratio: 2}\n");
   EXPECT_EQ(deck.choice("problem"), "gas");
   EXPECT_EQ(deck.quantity("particles.frozen_gas"), 0.002);
   EXPECT_TRUE(deck.isGiven("particles.frozen_gas"));
@@ -73,15 +62,15 @@ TEST(FormerNames, AreReadAsThePresentOnesWithANoteEach) {
 }
 
 TEST(FormerNames, TheResolvedDeckHasThePresentNames) {
-  const Deck old = deckOf("problem: air\nparticles: {hold: 1 s}\n"),
-             present = deckOf("problem: gas\nparticles: {frozen_gas: 1 s}\n");
+  const Deck old = deckOf(schema(), "problem: air\nparticles: {hold: 1 s}\n"),
+             present = deckOf(schema(), "problem: gas\nparticles: {frozen_gas: 1 s}\n");
   EXPECT_EQ(old.resolved(), present.resolved());
   EXPECT_EQ(old.resolvedJson(), present.resolvedJson());
   EXPECT_THAT(Deck::parse(old.resolved(), "again.yaml", {}, schema()).notes(), IsEmpty());
 }
 
 TEST(FormerNames, MayStandInOverrides) {
-  const Deck deck = deckOf("problem: gas\n", {"particles.hold_gas=3 s", "methods.a={claims: [M1]}"});
+  const Deck deck = deckOf(schema(), "problem: gas\n", {"particles.hold_gas=3 s", "methods.a={claims: [M1]}"});
   EXPECT_EQ(deck.quantity("particles.frozen_gas"), 3);
   EXPECT_EQ(deck.strings("methods.a.moments"), std::vector<std::string>{"M1"});
   EXPECT_THAT(deck.notes(),
@@ -98,7 +87,7 @@ TEST(FormerNames, AnOverrideHoldsOverTheOtherName) {
         std::tuple{present, std::vector<std::string>{"particles.hold_gas=2 s"}, 2.0},
         std::tuple{present, std::vector<std::string>{"particles.hold_gas=2 s", "particles.frozen_gas=3 s"}, 3.0},
         std::tuple{old, std::vector<std::string>{"particles.frozen_gas=2 s", "particles.hold_gas=3 s"}, 3.0}}) {
-    const Deck deck = deckOf(text, overrides);
+    const Deck deck = deckOf(schema(), text, overrides);
     EXPECT_EQ(deck.quantity("particles.frozen_gas"), value) << text;
     EXPECT_EQ(deck.integer("particles.count"), 2);
     EXPECT_EQ(deck.notes().size(), 1u);
@@ -106,22 +95,23 @@ TEST(FormerNames, AnOverrideHoldsOverTheOtherName) {
 }
 
 TEST(FormerNames, BothNamesInOneDeckAreAnError) {
-  const std::string both = refusalOf("problem: gas\nparticles:\n  frozen_gas: 1 s\n  hold_gas: 2 s\n");
+  const std::string both = refusalOf(schema(), "problem: gas\nparticles:\n  frozen_gas: 1 s\n  hold_gas: 2 s\n");
   EXPECT_THAT(both,
               HasSubstr("deck.yaml:4:3: particles.hold_gas: this is the former name of 'frozen_gas', which is given "
                         "too; leave 'hold_gas' out"));
   EXPECT_THAT(both, HasSubstr("hold_gas: 2 s"));
-  EXPECT_THAT(refusalOf("problem: gas\n", {"particles={hold_gas: 1 s, frozen_gas: 2 s}"}),
+  EXPECT_THAT(refusalOf(schema(), "problem: gas\n", {"particles={hold_gas: 1 s, frozen_gas: 2 s}"}),
               HasSubstr("leave 'hold_gas' out"));
-  EXPECT_THAT(refusalOf("problem: gas\nparticles: {hold: 1 s, hold_gas: 2 s}\n"),
+  EXPECT_THAT(refusalOf(schema(), "problem: gas\nparticles: {hold: 1 s, hold_gas: 2 s}\n"),
               HasSubstr("former name of 'frozen_gas'"));
 }
 
 TEST(FormerNames, MistakesNameThePresentKey) {
-  EXPECT_THAT(refusalOf("problem: gas\nparticles: {hold_gas: 3 m}\n"), HasSubstr("particles.frozen_gas: "));
-  EXPECT_THAT(refusalOf("problem: gas\nparticles: {hold_gsa: 3 s}\n"), HasSubstr("did you mean 'frozen_gas'?"));
-  EXPECT_THAT(refusalOf("problem: gas\nhold_gas: 3 s\n"), HasSubstr("did you mean 'particles.frozen_gas'?"));
-  EXPECT_THAT(refusalOf("problem: air2\n"), HasSubstr("expected one of: gas"));
+  EXPECT_THAT(refusalOf(schema(), "problem: gas\nparticles: {hold_gas: 3 m}\n"), HasSubstr("particles.frozen_gas: "));
+  EXPECT_THAT(refusalOf(schema(), "problem: gas\nparticles: {hold_gsa: 3 s}\n"),
+              HasSubstr("did you mean 'frozen_gas'?"));
+  EXPECT_THAT(refusalOf(schema(), "problem: gas\nhold_gas: 3 s\n"), HasSubstr("did you mean 'particles.frozen_gas'?"));
+  EXPECT_THAT(refusalOf(schema(), "problem: air2\n"), HasSubstr("expected one of: gas"));
 }
 
 TEST(FormerNames, OfAKindOfDecksChooseTheKind) {

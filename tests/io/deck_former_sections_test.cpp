@@ -7,6 +7,8 @@
 namespace lampblack::io {
 namespace {
 
+using test::deckOf;
+using test::refusalOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -28,21 +30,8 @@ DeckSchema schema() {
   return made;
 }
 
-Deck deckOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  return Deck::parse(text, "deck.yaml", overrides, schema());
-}
-
-std::string refusalOf(const std::string& text, const std::vector<std::string>& overrides = {}) {
-  try {
-    (void)deckOf(text, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(FormerSections, KeysAreReadWhereTheyStandNow) {
-  const Deck deck = deckOf("ash:\n  count: 7\n  fraction: 0.5\n  wall: brick\nsmoke: {box: {width: 2}}\n");
+  const Deck deck = deckOf(schema(), "ash:\n  count: 7\n  fraction: 0.5\n  wall: brick\nsmoke: {box: {width: 2}}\n");
   EXPECT_EQ(deck.integer("dust.count"), 7);
   EXPECT_EQ(deck.number("dust.rate"), 0.5);
   EXPECT_EQ(deck.string("wall.kind"), "brick");
@@ -55,48 +44,52 @@ TEST(FormerSections, KeysAreReadWhereTheyStandNow) {
           "as 'dust.rate', 'ash.wall' as 'wall.kind', with smoke, as version 0.3 does not read the old one",
           "deck.yaml:5: the keys of 'smoke' stand in 'dust' since version 0.2; write them there, as version 0.3 "
           "does not read the old one"));
-  EXPECT_THAT(deckOf(deck.resolved()).notes(), IsEmpty());
+  EXPECT_THAT(deckOf(schema(), deck.resolved()).notes(), IsEmpty());
 }
 
 TEST(FormerSections, AnEmptyOneIsThere) {
-  EXPECT_TRUE(deckOf("ash:\n").has("dust.count"));
-  EXPECT_FALSE(deckOf("wall: {kind: brick}\n").has("dust.count"));
+  EXPECT_TRUE(deckOf(schema(), "ash:\n").has("dust.count"));
+  EXPECT_FALSE(deckOf(schema(), "wall: {kind: brick}\n").has("dust.count"));
 }
 
 TEST(FormerSections, FormerNamesOfKeysHoldInThem) {
-  const Deck deck = deckOf("ash: {speed: 3}\n");
+  const Deck deck = deckOf(schema(), "ash: {speed: 3}\n");
   EXPECT_EQ(deck.number("dust.rate"), 3);
   EXPECT_EQ(deck.notes().size(), 2u);
 }
 
 TEST(FormerSections, SettingsAreMovedAndTheLaterHolds) {
   const std::string text = "dust: {count: 2, box: {width: 1, height: 3}}\n";
-  EXPECT_EQ(deckOf(text, {"ash.count=5"}).integer("dust.count"), 5);
-  EXPECT_EQ(deckOf(text, {"dust.count=5", "ash.count=6"}).integer("dust.count"), 6);
-  EXPECT_EQ(deckOf(text, {"ash.count=6", "dust.count=5"}).integer("dust.count"), 5);
-  const Deck box = deckOf(text, {"smoke.box.width=4"});
+  EXPECT_EQ(deckOf(schema(), text, {"ash.count=5"}).integer("dust.count"), 5);
+  EXPECT_EQ(deckOf(schema(), text, {"dust.count=5", "ash.count=6"}).integer("dust.count"), 6);
+  EXPECT_EQ(deckOf(schema(), text, {"ash.count=6", "dust.count=5"}).integer("dust.count"), 5);
+  const Deck box = deckOf(schema(), text, {"smoke.box.width=4"});
   EXPECT_EQ(box.number("dust.box.width"), 4);
   EXPECT_EQ(box.number("dust.box.height"), 3);
-  const Deck modes = deckOf("dust: {modes: [{size: 1}, {size: 5}]}\n", {"ash.modes[1].size=2"});
+  const Deck modes = deckOf(schema(), "dust: {modes: [{size: 1}, {size: 5}]}\n", {"ash.modes[1].size=2"});
   EXPECT_EQ(modes.number("dust.modes[0].size"), 1);
   EXPECT_EQ(modes.number("dust.modes[1].size"), 2);
-  EXPECT_THAT(deckOf(text, {"ash.count=5"}).notes(), ElementsAre(HasSubstr("--set ash.count: the keys of 'ash'")));
+  EXPECT_THAT(deckOf(schema(), text, {"ash.count=5"}).notes(),
+              ElementsAre(HasSubstr("--set ash.count: the keys of 'ash'")));
 }
 
 TEST(FormerSections, BothNamesInOneDeckAreAnError) {
   EXPECT_THAT(
-      refusalOf("ash: {count: 1}\ndust: {count: 2}\n"),
+      refusalOf(schema(), "ash: {count: 1}\ndust: {count: 2}\n"),
       HasSubstr("deck.yaml:1:7: ash.count: this is 'dust.count' now, which is given too; leave 'ash.count' out"));
-  EXPECT_THAT(refusalOf("ash: {count: 1}\nsmoke: {count: 2}\n"), HasSubstr("leave 'smoke.count' out"));
-  EXPECT_THAT(refusalOf("ash: {box: {width: 1}}\ndust: {box: {width: 2}}\n"), HasSubstr("'ash.box.width' out"));
-  EXPECT_THAT(refusalOf("", {"ash={fraction: 1, count: 1}", "dust.x=1"}), HasSubstr("the deck is empty"));
+  EXPECT_THAT(refusalOf(schema(), "ash: {count: 1}\nsmoke: {count: 2}\n"), HasSubstr("leave 'smoke.count' out"));
+  EXPECT_THAT(refusalOf(schema(), "ash: {box: {width: 1}}\ndust: {box: {width: 2}}\n"),
+              HasSubstr("'ash.box.width' out"));
+  EXPECT_THAT(refusalOf(schema(), "", {"ash={fraction: 1, count: 1}", "dust.x=1"}), HasSubstr("the deck is empty"));
 }
 
 TEST(FormerSections, MistakesStandWhereTheyWereMade) {
-  EXPECT_THAT(refusalOf("wall: {}\nash: {cuont: 1}\n"), HasSubstr("deck.yaml:2:7: dust.cuont: unknown key 'cuont'"));
-  EXPECT_THAT(refusalOf("ash: {count: one}\n"), HasSubstr("note: deck.yaml:1: the keys of 'ash' stand in 'dust'"));
-  EXPECT_THAT(refusalOf("ash: 3\n"), HasSubstr("ash: expected a map of keys, found '3'"));
-  EXPECT_THAT(refusalOf("dust: 3\nash: {count: 1}\n"), HasSubstr("dust: expected a map of keys, found '3'"));
+  EXPECT_THAT(refusalOf(schema(), "wall: {}\nash: {cuont: 1}\n"),
+              HasSubstr("deck.yaml:2:7: dust.cuont: unknown key 'cuont'"));
+  EXPECT_THAT(refusalOf(schema(), "ash: {count: one}\n"),
+              HasSubstr("note: deck.yaml:1: the keys of 'ash' stand in 'dust'"));
+  EXPECT_THAT(refusalOf(schema(), "ash: 3\n"), HasSubstr("ash: expected a map of keys, found '3'"));
+  EXPECT_THAT(refusalOf(schema(), "dust: 3\nash: {count: 1}\n"), HasSubstr("dust: expected a map of keys, found '3'"));
 }
 
 TEST(FormerSections, StandInTheJsonSchema) {

@@ -52,6 +52,20 @@ inline std::string messageOf(const std::string& text, const std::vector<std::str
   return {};
 }
 
+// A deck of a small schema, and what is said where it is refused.
+inline Deck deckOf(const DeckSchema& schema, const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return Deck::parse(text, "deck.yaml", overrides, schema);
+}
+inline std::string refusalOf(const DeckSchema& schema, const std::string& text,
+                             const std::vector<std::string>& overrides = {}) {
+  try {
+    (void)deckOf(schema, text, overrides);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
 // The sample with one piece of its text replaced.
 inline std::string sampleWith(const std::string& from, const std::string& to) {
   std::string text = sampleText;
