@@ -3,17 +3,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
+#include "numerics/index_lanes.hpp"
 #include "particles/trees/tree_sintering.hpp"
 
 namespace lampblack::particles {
-namespace {
-
-// GCC and Clang: compared and added as one.
-using Four = std::int32_t __attribute__((vector_size(16)));
-
-}  // namespace
 
 std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
   TreePrimary* primaries = primariesOf(&tree);
@@ -71,13 +65,12 @@ std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material
   const auto renumberBehind = [=](TreeNeck& neck) {
     static_assert(offsetof(TreeNeck, last) == offsetof(TreeNeck, left) + 3 * sizeof(std::int32_t));
     const auto lane = [](std::uint32_t i) { return static_cast<std::int32_t>(i); };
-    Four seen;
-    std::memcpy(&seen, &neck.left, sizeof seen);
-    const Four isA = seen == lane(a), isB = seen == lane(b);
-    const Four forB{lane(a), lane(a), lane(first), lane(b) - 1};
-    const Four now = isB ? forB : seen + (seen > lane(b));  // a mask is -1
-    std::memcpy(&neck.left, &now, sizeof now);
-    const Four either = isA | isB;
+    const IndexLanes seen = loadIndices(&neck.left);
+    const IndexLanes isA = seen == lane(a), isB = seen == lane(b);
+    const IndexLanes forB{lane(a), lane(a), lane(first), lane(b) - 1};
+    const IndexLanes now = isB ? forB : seen + (seen > lane(b));  // a mask is -1
+    storeIndices(&neck.left, now);
+    const IndexLanes either = isA | isB;
     return (either[0] | either[1]) != 0;
   };
   const bool isBehind = before == 0;
