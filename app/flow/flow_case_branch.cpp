@@ -142,58 +142,49 @@ std::optional<TimeControl::Branch> readBranch(const Deck& deck, const TimeContro
 }
 
 void addBranchKeys(DeckSchema& schema) {
-  const std::vector<std::string> steady{"steady"};
   const TimeControl::Branch branch;
   schema
       .section(branchSection, Presence::optional,
                "The branch of steady states along a load, a factor on the velocities of all inlets or on 'key', from "
                "the one that was found (load 1) round its turning points (extinction, ignition). The run's fields are "
-               "those of load 1; the branch is a table.")
+               "those of load 1; the branch is a table.",
+               {{"time.mode", {"steady"}}})
       .add(stringKey("time.steady.continuation.key",
                      "What the load is a factor on: 'pressure', or of a boundary NAME 'boundaries.NAME.velocity' (of "
                      "one inlet), 'boundaries.NAME.temperature' (of an inlet or a wall), "
                      "'boundaries.NAME.composition.SPECIES' (a mole fraction of an inlet, the others of which share "
                      "the rest as before). What inlets bring of turbulence stays as it is. Absent: the velocities of "
                      "all inlets.")
-               .optional()
-               .onlyWith("time.mode", steady))
+               .optional())
       .add(choiceKey("time.steady.continuation.towards", {"higher", "lower"},
                      "Whether the load rises or falls at the start of the branch.")
-               .byDefault("higher")
-               .onlyWith("time.mode", steady))
+               .byDefault("higher"))
       .add(numberKey("time.steady.continuation.lowest_load", "The branch ends where the load is below this.")
                .byDefault("0")
-               .atLeast(0)
-               .onlyWith("time.mode", steady))
+               .atLeast(0))
       .add(numberKey("time.steady.continuation.highest_load", "The branch ends where the load is above this.")
                .optional()
-               .above(0)
-               .onlyWith("time.mode", steady))
+               .above(0))
       .add(temperatureKey("time.steady.continuation.lowest_temperature",
                           "The branch ends where the largest temperature is below this.")
-               .optional()
-               .onlyWith("time.mode", steady))
+               .optional())
       .add(integerKey(
                "time.steady.continuation.turning_points",
                "The branch ends after this number of turning points; from a burning flame the first is extinction.")
                .byDefault(fmt::format("{}", branch.turningPoints))
-               .atLeast(1)
-               .onlyWith("time.mode", steady))
+               .atLeast(1))
       .add(integerKey("time.steady.continuation.maximum_points", "The branch ends after this number of states.")
                .byDefault(fmt::format("{}", branch.points))
-               .atLeast(2)
-               .onlyWith("time.mode", steady))
+               .atLeast(2))
       .add(numberKey("time.steady.continuation.first_step",
                      "Change of the load from the first state of the branch to the second, over the load of the first.")
                .byDefault(fmt::format("{}", branch.firstStep))
                .above(0)
-               .below(1)
-               .onlyWith("time.mode", steady))
+               .below(1))
       .add(integerKey("time.steady.continuation.iterations",
                       "Iterations for a state of the branch, after which a shorter step is tried.")
                .byDefault(fmt::format("{}", branch.iterations))
-               .atLeast(1)
-               .onlyWith("time.mode", steady));
+               .atLeast(1));
 }
 
 }  // namespace lampblack::app::flowcase

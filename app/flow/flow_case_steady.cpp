@@ -98,8 +98,8 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
 }
 
 void addSteadyKeys(DeckSchema& schema) {
-  const std::vector<std::string> transient{"transient"}, steady{"steady"};
-  const SteadySearch::Options search;
+  const std::vector<std::string> transient{"transient"};
+  const SteadySearch::Options options;
   schema
       .section(
           steadySection, Presence::optional,
@@ -132,27 +132,26 @@ void addSteadyKeys(DeckSchema& schema) {
                        "something slow has begun.")
                .byDefault("0 s")
                .atLeast(0)
-               .onlyWith("time.mode", transient))
+               .onlyWith("time.mode", transient));
+  DeckSchema search;
+  search
       .add(numberKey("time.steady.residual",
                      "Residual below which the flow is steady: what is left of the rates of each equation, summed over "
                      "the cells, as a share of what goes through the domain or is made in it.")
-               .byDefault(fmt::format("{}", search.residual))
+               .byDefault(fmt::format("{}", options.residual))
                .above(0)
-               .below(1)
-               .onlyWith("time.mode", steady))
+               .below(1))
       .add(integerKey("time.steady.iterations",
                       "Iterations after which a search that has not come to its end is given up.")
-               .byDefault(fmt::format("{}", search.iterations))
+               .byDefault(fmt::format("{}", options.iterations))
                .atLeast(1)
-               .atMost(1e6)
-               .onlyWith("time.mode", steady))
+               .atMost(1e6))
       .add(integerKey("time.steady.returns",
                       "How often the search may go back from iterations that do not converge to steps in time, twice "
                       "as many each time, before it is given up.")
-               .byDefault(fmt::format("{}", search.returns))
+               .byDefault(fmt::format("{}", options.returns))
                .atLeast(0)
-               .atMost(20)
-               .onlyWith("time.mode", steady))
+               .atMost(20))
       .add(integerKey(
                "time.steady.attempts",
                fmt::format("Attempts to find the state by iterations before the flow is established: after 20 "
@@ -162,8 +161,7 @@ void addSteadyKeys(DeckSchema& schema) {
                            usualAttempts))
                .optional()
                .atLeast(0)
-               .atMost(5)
-               .onlyWith("time.mode", steady))
+               .atMost(5))
       .add(integerKey("time.steady.steps",
                       "Steps in time before the first iterations, in place of as many as the heat release takes to "
                       "become quiet (50 to 300; at least 10 in a gas without reactions). With 20 most flames are found "
@@ -171,26 +169,23 @@ void addSteadyKeys(DeckSchema& schema) {
                       "flame that can stand in two ways may be found in the other.")
                .optional()
                .atLeast(1)
-               .atMost(1e5)
-               .onlyWith("time.mode", steady))
+               .atMost(1e5))
       .add(
           booleanKey("time.steady.light",
                      "Lights the flow where nothing burns once the steps in time are over, or in the steady state that "
                      "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "
                      "a gas at least 500 K hotter becomes that gas. At most twice; the run says so. false: what is not "
                      "lit stays cold.")
-              .byDefault("true")
-              .onlyWith("time.mode", steady))
+              .byDefault("true"))
       .add(integerKey("time.steady.coarser_meshes",
                       "Number of coarser meshes, each of half the cells of the next in every direction (of a plane "
                       "box), on which the steady state is sought first: what is found on one is the start on the next. "
                       "A run that is stopped on one of them begins anew.")
                .byDefault("0")
                .atLeast(0)
-               .atMost(5)
-               .onlyWith("time.mode", steady));
+               .atMost(5));
   const SteadyRounds::Options rounds;
-  schema
+  search
       .add(integerKey(
                "time.steady.rounds",
                "With ensembles or trees: most rounds, in each of which first the gas becomes steady with what the "
@@ -198,47 +193,43 @@ void addSteadyKeys(DeckSchema& schema) {
                "that gas.")
                .byDefault(fmt::format("{}", rounds.most))
                .atLeast(1)
-               .onlyWith(descriptionKey, populations)
-               .onlyWith("time.mode", steady))
+               .onlyWith(descriptionKey, populations))
       .add(numberKey("time.steady.agreement",
                      "With ensembles or trees: change of temperature, mass fractions and velocity of the gas from one "
                      "round to the next, of the range of each in the domain, with which the rounds end. What the gas "
                      "feels of the particles has the noise of their averages, by which it differs from round to round.")
                .byDefault(fmt::format("{}", rounds.tolerance))
                .above(0)
-               .onlyWith(descriptionKey, populations)
-               .onlyWith("time.mode", steady))
+               .onlyWith(descriptionKey, populations))
       .add(integerKey("time.steady.blocks",
                       "With ensembles or trees: blocks (particles.statistics.block) of the averages of the last round; "
                       "those before, while "
                       "the gas still changes by more than three times 'agreement', have the least number.")
                .byDefault(fmt::format("{}", rounds.blocks))
                .atLeast(static_cast<double>(leastBlocks))
-               .onlyWith(descriptionKey, populations)
-               .onlyWith("time.mode", steady));
+               .onlyWith(descriptionKey, populations));
+  schema.add(search, {"time.mode", {"steady"}});
   const ModeOptions modes;
   schema
       .section(stabilitySection, Presence::optional,
                "Whether the steady state that was found lasts: growth rates and frequencies of its disturbances, which "
-               "take marches of the flow in time, in steps of two sweeps. Absent: not looked at.")
+               "take marches of the flow in time, in steps of two sweeps. Absent: not looked at.",
+               {{"time.mode", {"steady"}}})
       .add(quantityKey("time.steady.stability.time", units::time,
                        "Time over which each disturbance is marched. Frequencies above one over twice that time are "
                        "told as lower ones. Absent: a fortieth of the residence time.")
                .optional()
-               .above(0)
-               .onlyWith("time.mode", steady))
+               .above(0))
       .add(integerKey("time.steady.stability.vectors",
                       "Disturbances that are marched at most; fewer where the one that leads is known before.")
                .byDefault(fmt::format("{}", modes.vectors))
                .atLeast(2)
-               .atMost(1000)
-               .onlyWith("time.mode", steady))
+               .atMost(1000))
       .add(numberKey("time.steady.stability.disturbance",
                      "The largest change of any field in any cell that a disturbance has, of the field's range.")
                .byDefault(fmt::format("{}", modes.disturbance))
                .above(0)
-               .below(1)
-               .onlyWith("time.mode", steady));
+               .below(1));
   addBranchKeys(schema);
 }
 
