@@ -15,6 +15,10 @@
 #include "core/random.hpp"
 #include "particles/ensemble/ensemble.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
+#include "particles/population/engine/even_births.hpp"
+#include "particles/population/engine/event_loop.hpp"
+#include "particles/population/engine/jumps.hpp"
+#include "particles/population/engine/split_step.hpp"
 #include "particles/population/monte_carlo/equal_weight_sample.hpp"
 #include "particles/soot/soot_events.hpp"
 #include "particles/soot/soot_steps.hpp"
@@ -73,15 +77,29 @@ class StochasticProcess final : public Ensemble {
   // Each takes the sums of the population as it is and leaves those of what it has become.
   void thin(double factor, Sums& now);
   void jump(const SootMedium& medium, double dt, double stepLength, Sums& now);
-  template <class Nucleate>
-  void jumpByEvents(double dt, double inception, const Nucleate& nucleate, bool& isChanged);
   void takeChanges(const SootMedium& medium, double before, Sums& now);
   void grow(const SootMedium& medium, double dt, Sums& now);
   [[nodiscard]] bool growsSome() const { return changesSome && options_.growthByEvents; }
   SootTransfer growEach(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
   SootTransfer growSome(const SootMedium& medium, const SootFluxes& flux, double dt, Sums& now);
-  void planNucleus(double weight) { nucleusAfter_ = weight * random_.uniform(); }
   void recordUptakeOfDimers(const SootMedium& medium, double dimers);
+
+  // What the events of the loop do here.
+  template <class Nucleate>
+  struct Events {
+    PopulationCounters& counters;
+    const Nucleate& giveBirth;
+    bool& isChanged;
+    void look() {}
+    void setTime(double) {}
+    template <class Process>
+    void take(const Process&, bool happened) {
+      if (happened)
+        isChanged = true;
+      else
+        ++counters.fictitious;
+    }
+  };
 
   static constexpr int birthsOfJump = 4;
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
@@ -99,10 +117,7 @@ class StochasticProcess final : public Ensemble {
   Method method_;
   RandomStream random_;
   EnsembleExchange exchange_;
-  // Of the interval of the integral of inception that the next nucleus stands for (NucleationSampling::even): how much
-  // has passed (negative: it has not begun), and where in it the nucleus is due, 1/m3.
-  double reached_ = 0, nucleusAfter_ = 0;
-  bool planned_ = false;
+  EvenBirths births_;
   double cost_ = 0;
   mutable std::optional<CollisionKernel> kernel_;  // for equal particles
   mutable SootColumns columns_;                    // of the particles, while gathered_
@@ -149,30 +164,33 @@ void StochasticProcess<Method>::advance(const ParticleGas& gas, double dilution,
     method_.rebuild();
   }
   cost_ = 0;
-  const auto eventsBefore = counters().events() + counters().fictitious;
-  double remaining = dt;
+  const std::uint64_t before = counters().events() + counters().fictitious;
   gathered_ = false;
   Sums now = sums(medium);
-  while (remaining > 0 && (size() > 0 || medium.incepting())) {
+  double whole = 0;  // s, the step
+  const auto length = [&](double remaining) {
+    if (size() == 0 && !medium.incepting()) return 0.0;
     cost_ += static_cast<double>(size()) + 1;
-    const double length = sootStep(law(), medium, now, std::abs(dilution), remaining);
-    if (dilution != 0) thin(std::exp(-0.5 * dilution * length), now);
-    jump(medium, 0.5 * length, length, now);
-    grow(medium, length, now);
-    jump(medium, 0.5 * length, length, now);
-    if (dilution != 0) thin(std::exp(-0.5 * dilution * length), now);
+    return whole = sootStep(law(), medium, now, std::abs(dilution), remaining);
+  };
+  inSteps(dt, length, [&](double step) {
+    splitStep(
+        step,
+        [&](double time) {
+          if (dilution != 0) thin(std::exp(-dilution * time), now);
+        },
+        [&](double time) { jump(medium, time, whole, now); }, [&](double time) { grow(medium, time, now); });
     ++method_.counters().splitSteps;
-    remaining = length < remaining ? remaining - length : 0;
-  }
+  });
   if constexpr (weighted) method_.mergeExcess();
-  cost_ += static_cast<double>(counters().events() + counters().fictitious - eventsBefore);
+  cost_ += static_cast<double>(counters().events() + counters().fictitious - before);
 }
 
 template <class Method>
 void StochasticProcess<Method>::dilute(double factor) {
   const Atoms before = atoms();
   method_.dilute(factor);
-  for (double* number : {&reached_, &nucleusAfter_}) *number *= factor;
+  births_.dilute(factor);
   exchange_.dilutedCarbon += before.carbon * (1 - factor);
   exchange_.dilutedHydrogen += before.hydrogen * (1 - factor);
 }
@@ -181,7 +199,7 @@ void StochasticProcess<Method>::dilute(double factor) {
 template <class Method>
 void StochasticProcess<Method>::thin(double factor, Sums& now) {
   method_.dilute(factor);
-  for (double* number : {&reached_, &nucleusAfter_}) *number *= factor;
+  births_.dilute(factor);
   exchange_.dilutedCarbon += now.carbon * (1 - factor);
   exchange_.dilutedHydrogen += now.hydrogen * (1 - factor);
   for (const auto sum : Sums::all) now.*sum *= factor;
@@ -210,15 +228,12 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
         // of the sample. What there was of the interval goes with its particles.
         const double n = static_cast<double>(options_.particles);
         method_.startAfresh(std::max(options_.startNumberDensity, 2 * inception * dt) / n);
-        reached_ = 0;
-        planned_ = false;
+        births_.startAfresh();
       }
     }
-    if (!planned_ && inception > 0) {
-      planNucleus(method_.nucleusWeight());
-      planned_ = true;
-    }
   }
+  births_.setRate(inception);
+  births_.plan(method_.nucleusWeight(), random_);
   [[maybe_unused]] const double weightBefore = method_.nucleusWeight();
   if constexpr (!weighted) {
     changes_.clear();
@@ -232,9 +247,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     nucleated += weight;
     nucleatedCarbon += weight * nucleusCarbon;
     nucleatedHydrogen += weight * nucleusHydrogen;
-    // The next interval begins where this one, as long as what was put in, ends.
-    reached_ -= weight;
-    planNucleus(method_.nucleusWeight());
+    births_.bear(weight, method_.nucleusWeight(), random_);
   };
   if constexpr (drawsPairs) {
     // Births between two halves of the collisions, several times: few collisions are left for the splitting to reorder.
@@ -242,15 +255,15 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     const double part = dt / times;
     if (kernel_) method_.coagulate(0.5 * part, random_);
     for (int k = 1; k <= times; ++k) {
-      if (inception > 0) {
-        reached_ += inception * part;
-        while (reached_ >= nucleusAfter_) nucleate();
-      }
+      births_.pass(part);
+      while (births_.isDue()) nucleate();
       if (kernel_) method_.coagulate(k < times ? part : 0.5 * part, random_);
     }
     isChanged = isChanged || kernel_;
   } else {
-    jumpByEvents(dt, inception, nucleate, isChanged);
+    Events<decltype(nucleate)> events{method_.counters(), nucleate, isChanged};
+    double time = 0;
+    runEvents(time, dt, random_, births_, events, CoagulationJumps<Method>{method_, kernel_.has_value()});
   }
   if constexpr (!weighted) method_.watch(nullptr);
   if (isChanged) {
@@ -262,44 +275,13 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
   }
   // What was born by the rate of a middle that was foreseen becomes the trapezoidal rule's, by those that come next.
   if (inception > 0 && size() > 0)
-    reached_ += (0.5 * (medium.inception(start.collisions) + medium.inception(now.collisions)) - inception) * dt;
+    births_.add((0.5 * (medium.inception(start.collisions) + medium.inception(now.collisions)) - inception) * dt);
   exchange_.resampledCarbon += now.carbon - start.carbon - nucleatedCarbon;
   exchange_.resampledHydrogen += now.hydrogen - start.hydrogen - nucleatedHydrogen;
   if (nucleated > 0) {
     recordUptakeOfDimers(medium, 2 * nucleated);
     exchange_.nucleatedNumber += nucleated;
     exchange_.nucleated += nucleatedCarbon + nucleatedHydrogen;
-  }
-}
-
-// Collisions over dt, and nuclei when they are due.
-template <class Method>
-template <class Nucleate>
-void StochasticProcess<Method>::jumpByEvents(double dt, double inception, const Nucleate& nucleate, bool& isChanged) {
-  double time = 0;
-  double wait = kernel_ ? random_.exponential(1) : 0;  // of the integral of the rate of coagulation, to its next event
-  while (true) {
-    const double coagulation = kernel_ ? method_.coagulationRate() : 0;
-    const double next = coagulation > 0 ? time + wait / coagulation : std::numeric_limits<double>::infinity();
-    const double end = std::min(next, dt);
-    if (inception > 0) {
-      const double due = time + std::max(0.0, nucleusAfter_ - reached_) / inception;
-      if (due < end) {
-        reached_ = nucleusAfter_;
-        wait = std::max(0.0, wait - coagulation * (due - time));
-        time = due;
-        nucleate();
-        continue;
-      }
-      reached_ += (end - time) * inception;
-    }
-    if (next >= dt) break;
-    time = next;
-    wait = random_.exponential(1);
-    if (method_.coagulate(random_))
-      isChanged = true;
-    else
-      ++method_.counters().fictitious;
   }
 }
 

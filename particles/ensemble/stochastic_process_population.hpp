@@ -48,8 +48,7 @@ void StochasticProcess<Method>::initialise(std::span<const GivenParticle> popula
     method_.replace(particles, population[0].number, random_);
   }
   exchange_ = {};
-  reached_ = 0;
-  planned_ = false;
+  births_.startAfresh();
   cost_ = 0;
 }
 
@@ -100,8 +99,9 @@ std::vector<double> StochasticProcess<Method>::pack() const {
   packDoubles(state,
               std::array{packedVersion, static_cast<double>(options_.method), static_cast<double>(options_.particles)});
   packDoubles(state, packedOwner(random_.owner()));
-  packDoubles(
-      state, std::array{static_cast<double>(random_.position()), reached_, nucleusAfter_, planned_ ? 1.0 : 0.0, cost_});
+  state.push_back(static_cast<double>(random_.position()));
+  packDoubles(state, births_.memory());
+  state.push_back(cost_);
   packDoubles(state, exchange_);
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(counters().*counter.value));  // below 2^53
@@ -121,9 +121,7 @@ void StochasticProcess<Method>::unpack(std::span<const double> values) {
     throw InputError("stochastic soot: the saved state is of a population with another method or number of particles");
   random_ = RandomStream(options_.seed, ownerOf(state.next<PackedOwner>()), ensembleStream);
   random_.seek(static_cast<std::uint64_t>(state.next()));
-  reached_ = state.next();
-  nucleusAfter_ = state.next();
-  planned_ = state.next() != 0;
+  births_.restore(state.next<EvenBirths::Memory>());
   cost_ = state.next();
   exchange_ = state.next<EnsembleExchange>();
   for (const PopulationCounter& counter : populationCounters)

@@ -4,9 +4,9 @@
 // given to it is reported: the same atoms that the particles gain, to round-off.
 //
 // Splitting (Strang 1968): collisions and inception by jumps for half a step, growth for all of it, jumps for half a
-// step, of a length over which the population changes by `splitTolerance`. Sintering is not split off: each tree has
-// the time up to which it has sintered, and is brought up to date where it is looked at, before a collision, before it
-// grows, and as soon as it has changed (TreeSintering). docs/theory/primary_trees.md.
+// step (runEvents, EvenBirths), of a length over which the population changes by `splitTolerance`. Sintering is not
+// split off: each tree has the time up to which it has sintered, and is brought up to date where it is looked at,
+// before a collision, before it grows, and as soon as it has changed (TreeSintering). docs/theory/primary_trees.md.
 #pragma once
 
 #include <array>

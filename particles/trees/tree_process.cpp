@@ -9,6 +9,9 @@
 
 #include "core/errors.hpp"
 #include "particles/gas/soot_gas.hpp"
+#include "particles/population/engine/event_loop.hpp"
+#include "particles/population/engine/jumps.hpp"
+#include "particles/population/engine/split_step.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 
 namespace lampblack::particles {
@@ -68,6 +71,7 @@ void TreeProcess::fill(std::span<const TreeStart> starts) {
     trees.push_back(type_.make(units));
   }
   method_.replace(trees, all.number / static_cast<double>(options_.particles), random_);
+  births_.startAfresh();
   exchange_ = {};
 }
 
@@ -93,6 +97,7 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
   sintering_.setTemperature(gas.temperature);
   if (size() == 0) method_.startAfresh(options_.fullAt / static_cast<double>(options_.particles));
   cost_ = 0;
+  const PopulationCounters before = method_.counters();
   std::visit(
       [&](auto& reactions) {
         reactions.setGas(gas, *kernel_);
@@ -101,53 +106,61 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
         march(reactions, dt);
       },
       reactions_);
+  const PopulationCounters& now = method_.counters();
+  cost_ += static_cast<double>(now.events() + now.fictitious - before.events() - before.fictitious);
 }
 
 template <class Reactions>
 void TreeProcess::march(Reactions& reactions, double dt) {
   const CollisionKernel* kernel = options_.coagulation ? &*kernel_ : nullptr;
-  double remaining = dt;
-  while (remaining > 0) {
-    typename Reactions::Sums now = sums(reactions);
+  typename Reactions::Sums now;
+  const auto length = [&](double remaining) {
+    now = sums(reactions);
     cost_ += static_cast<double>(size());
-    const double length = reactions.step(now, kernel, options_.splitTolerance, remaining);
-    jump(reactions, now, 0.5 * length);
+    return reactions.step(now, kernel, options_.splitTolerance, remaining);
+  };
+  const auto update = [&] {
     if constexpr (Reactions::dependsOnSums) now = sums(reactions);
-    change(reactions, now, length);
-    if constexpr (Reactions::dependsOnSums) now = sums(reactions);
-    jump(reactions, now, 0.5 * length);
-    ++counters_.splitSteps;
-    remaining = length < remaining ? remaining - length : 0;
-  }
+  };
+  inSteps(dt, length, [&](double step) {
+    splitStep(
+        step, [&](double time) { jump(reactions, now, time); },
+        [&](double time) {
+          update();
+          change(reactions, now, time);
+          update();
+        });
+    ++method_.counters().splitSteps;
+  });
+}
+
+template <class Reactions>
+void TreeProcess::Events<Reactions>::giveBirth() {
+  of.method_.nucleate(of.random_);
+  of.births_.bear(weight, of.method_.weight(), of.random_);
+  of.exchange_.inceptions += weight;
+  reactions.recordInception(weight, of.exchange_);
+}
+
+template <class Reactions>
+template <class Process>
+void TreeProcess::Events<Reactions>::take(const Process&, bool happened) {
+  if (happened)
+    of.exchange_.coagulations += weight;
+  else
+    ++of.method_.counters().fictitious;
 }
 
 template <class Reactions>
 void TreeProcess::jump(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
-  const double start = type_.clock();
-  const double births = reactions.inception(sums, dt);  // 1/m3/s
-  type_.setNextUpdate(start + dt);
-  double time = 0;
-  while (true) {
-    const double coagulation = options_.coagulation ? method_.coagulationRate() : 0;
-    const double weight = method_.nucleusWeight(), inception = births / weight;
-    const double total = coagulation + inception;
-    if (!(total > 0)) break;
-    time += random_.exponential(total);
-    if (time > dt) break;
-    ++cost_;
-    type_.clock() = start + time;
-    if (inception > 0 && random_.uniform() * total < inception) {
-      method_.nucleate(random_);
-      ++counters_.inceptions;
-      exchange_.inceptions += weight;
-      reactions.recordInception(weight, exchange_);
-    } else if (method_.coagulate(random_)) {
-      exchange_.coagulations += weight;
-    } else {
-      ++counters_.fictitious;
-    }
-  }
-  type_.clock() = start + dt;
+  births_.setRate(reactions.inception(sums, dt));
+  births_.plan(method_.weight(), random_);
+  double time = type_.clock();
+  const double end = time + dt;
+  type_.setNextUpdate(end);
+  Events<Reactions> events{*this, reactions};
+  runEvents(time, end, random_, births_, events, CoagulationJumps<Method>{method_, options_.coagulation});
+  type_.clock() = end;
 }
 
 template <class Reactions>

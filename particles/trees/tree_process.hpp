@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "core/modules.hpp"
+#include "particles/population/engine/even_births.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/trees/tree_population.hpp"
@@ -26,7 +27,10 @@ class TreeProcess final : public TreePopulation {
   using TreePopulation::fill;
   void fill(std::span<const TreeStart> starts) override;
   void advance(const ParticleGas& gas, double dt) override;
-  void dilute(double factor) override { method_.dilute(factor); }
+  void dilute(double factor) override {
+    method_.dilute(factor);
+    births_.dilute(factor);
+  }
   [[nodiscard]] TreeExchange takeExchange() override { return std::exchange(exchange_, {}); }
   void applyDeferred() override;
 
@@ -52,10 +56,26 @@ class TreeProcess final : public TreePopulation {
     std::vector<Tree> trees;
     std::array<double, 2> memory{};
     std::uint64_t position = 0;
+    EvenBirths::Memory births{};
     double clock = 0;
     TreeExchange exchange;
     TreeCounters counters;
     PopulationCounters method;
+  };
+  // What the events of the loop do here.
+  template <class Reactions>
+  struct Events {
+    TreeProcess& of;
+    Reactions& reactions;
+    double weight = 0;  // before the event, 1/m3
+    void look() {}
+    void setTime(double time) {
+      of.type_.clock() = time;
+      weight = of.method_.weight();
+    }
+    void giveBirth();
+    template <class Process>
+    void take(const Process&, bool happened);
   };
   // Of the material's reactions, TreeSites or TreeSoot.
   template <class Reactions>
@@ -72,6 +92,7 @@ class TreeProcess final : public TreePopulation {
   PrimaryTrees type_;
   RandomStream random_;
   Method method_;
+  EvenBirths births_;
   TreeSintering sintering_;
   std::variant<TreeSites, TreeSoot> reactions_;
   std::optional<CollisionKernel> kernel_;

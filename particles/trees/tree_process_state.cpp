@@ -64,9 +64,12 @@ std::vector<Tree> TreeProcess::trees() const {
 TreeCounters TreeProcess::counters() const {
   TreeCounters all = counters_;
   const PopulationCounters& method = const_cast<Method&>(method_).counters();
+  all.inceptions = method.nucleations;
   all.coagulations = method.coagulations;
+  all.fictitious = method.fictitious;
   all.doublings = method.doublings;
   all.removals = method.removals;
+  all.splitSteps = method.splitSteps;
   return all;
 }
 
@@ -75,6 +78,7 @@ std::unique_ptr<TreePopulation::State> TreeProcess::save() const {
   saved->trees = trees();
   saved->memory = method_.memory();
   saved->position = random_.position();
+  saved->births = births_.memory();
   saved->clock = type_.clock();
   saved->exchange = exchange_;
   saved->counters = counters_;
@@ -85,6 +89,7 @@ std::unique_ptr<TreePopulation::State> TreeProcess::save() const {
 void TreeProcess::restore(const State& state) {
   const auto& saved = dynamic_cast<const Saved&>(state);
   random_.seek(saved.position);
+  births_.restore(saved.births);
   type_.clock() = saved.clock;
   exchange_ = saved.exchange;
   counters_ = saved.counters;
@@ -94,7 +99,12 @@ void TreeProcess::restore(const State& state) {
 
 namespace {
 
-constexpr double packedTrees = 3;
+constexpr double packedTrees = 4;
+
+// What counters() does not take from those of the method.
+constexpr std::uint64_t TreeCounters::*packedCounters[] = {
+    &TreeCounters::fused,        &TreeCounters::reactions, &TreeCounters::condensations, &TreeCounters::limited,
+    &TreeCounters::withoutSites, &TreeCounters::burnt,     &TreeCounters::broken,        &TreeCounters::fragmentations};
 
 }  // namespace
 
@@ -103,14 +113,11 @@ std::vector<double> TreeProcess::pack() const {
                             static_cast<double>(options_.particles)};
   packDoubles(state, packedOwner(random_.owner()));
   state.push_back(static_cast<double>(random_.position()));
+  packDoubles(state, births_.memory());
   state.push_back(type_.clock());
   state.push_back(cost_);
   packDoubles(state, exchange_);
-  for (const std::uint64_t count :
-       {counters_.inceptions, counters_.fictitious, counters_.fused, counters_.splitSteps, counters_.reactions,
-        counters_.condensations, counters_.limited, counters_.withoutSites, counters_.burnt, counters_.broken,
-        counters_.fragmentations})
-    state.push_back(static_cast<double>(count));
+  for (const auto count : packedCounters) state.push_back(static_cast<double>(counters_.*count));
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(const_cast<Method&>(method_).counters().*counter.value));
   packDoubles(state, method_.memory());
@@ -120,18 +127,20 @@ std::vector<double> TreeProcess::pack() const {
 
 void TreeProcess::unpack(std::span<const double> values) {
   PackedDoubles state(values);
-  if (state.next() != packedTrees || state.next() != static_cast<double>(options_.material.components.size()) ||
+  if (state.next() != packedTrees)
+    throw InputError(
+        "particles: the saved state of trees was written by another version of Lampblack; go on with that version, or "
+        "begin the run anew");
+  if (state.next() != static_cast<double>(options_.material.components.size()) ||
       state.next() != static_cast<double>(options_.particles))
     throw InputError("particles: the saved state is not one of as many trees of this material");
   random_ = RandomStream(options_.seed, ownerOf(state.next<PackedOwner>()), treeStream);
   random_.seek(static_cast<std::uint64_t>(state.next()));
+  births_.restore(state.next<EvenBirths::Memory>());
   type_.clock() = state.next();
   cost_ = state.next();
   exchange_ = state.next<TreeExchange>();
-  for (std::uint64_t* count : {&counters_.inceptions, &counters_.fictitious, &counters_.fused, &counters_.splitSteps,
-                               &counters_.reactions, &counters_.condensations, &counters_.limited,
-                               &counters_.withoutSites, &counters_.burnt, &counters_.broken, &counters_.fragmentations})
-    *count = static_cast<std::uint64_t>(state.next());
+  for (const auto count : packedCounters) counters_.*count = static_cast<std::uint64_t>(state.next());
   for (const PopulationCounter& counter : populationCounters)
     method_.counters().*counter.value = static_cast<std::uint64_t>(state.next());
   const auto memory = state.next<std::array<double, 2>>();

@@ -1,24 +1,21 @@
-// The Markov jump process of a population: which event comes when, for any method. A method (see the concept below)
-// knows its particles and weights; this loop knows time. Events with a majorant are attempted at the majorant's rate
-// and may turn out fictitious, which leaves the law of the others exact.
+// The population balance by jumps (event_loop.hpp), for any method. A method (see the concept below) knows its
+// particles and weights; the loop knows time.
 #pragma once
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <span>
 #include <utility>
 
-#include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "core/random.hpp"
+#include "particles/population/engine/event_loop.hpp"
+#include "particles/population/engine/jumps.hpp"
+#include "particles/population/engine/nucleation_births.hpp"
+#include "particles/population/engine/split_step.hpp"
 #include "particles/population/gelation_error.hpp"
-#include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/monte_carlo/monte_carlo_options.hpp"
 
 namespace lampblack::particles {
@@ -61,36 +58,33 @@ class JumpProcess final : public PopulationSolver {
       : method_(std::move(method)),
         model_(model),
         random_(random),
-        sampling_(options.nucleation),
-        condenses_(model.growth.active() && model.growth.treatment == GrowthOptions::Treatment::jumps) {
-    if (model_.nucleation) {
-      schedule_.emplace(*model_.nucleation);
-      planNucleus(0, 0);
-    }
-  }
+        births_(method_, model, options.nucleation, random_) {}
 
   void advance(double end) override {
-    const bool continuous = model_.growth.active() && model_.growth.treatment != GrowthOptions::Treatment::jumps;
+    const bool jumps = model_.growth.active() && model_.growth.treatment == GrowthOptions::Treatment::jumps;
+    const bool continuous = model_.growth.active() && !jumps;
     const bool deferred = continuous && model_.growth.treatment == GrowthOptions::Treatment::deferred;
+    Events events{*this, deferred};
+    const auto dilute = [&](double dt) {
+      if (model_.dilution != 0) method_.dilute(std::exp(-model_.dilution * dt));
+    };
+    const auto grow = [&](double dt) {
+      if (continuous && !deferred) method_.grow(dt);
+    };
     while (time_ < end) {
       runCallback();
       double next = end;
       if (continuous) next = std::min(next, time_ + method_.growthStep());
       if (model_.dilution != 0) next = std::min(next, time_ + dilutionStep / std::abs(model_.dilution));
-      const double dt = next - time_;
       if (continuous || model_.dilution != 0) ++method_.counters().splitSteps;
-      if (model_.dilution != 0) method_.dilute(std::exp(-0.5 * model_.dilution * dt));
-      if (deferred)
-        method_.beginStep(time_, next);
-      else if (continuous)
-        method_.grow(0.5 * dt);
-      jump(next, deferred);
-      if (deferred)
-        method_.endStep();
-      else if (continuous)
-        method_.grow(0.5 * dt);
-      if (model_.dilution != 0) method_.dilute(std::exp(-0.5 * model_.dilution * dt));
-      time_ = next;
+      splitStep(next - time_, dilute, grow, [&](double) {
+        if (deferred) method_.beginStep(time_, next);
+        runEvents(
+            time_, next, random_, births_, events, CoagulationJumps<Method>{method_, model_.coagulation.has_value()},
+            BreakageJumps<Method>{method_, model_.breakage.has_value()},
+            DepositionJumps<Method>{method_, model_.deposition.has_value()}, CondensationJumps<Method>{method_, jumps});
+        if (deferred) method_.endStep();
+      });
     }
   }
 
@@ -109,84 +103,36 @@ class JumpProcess final : public PopulationSolver {
   static constexpr double dilutionStep = 0.02;
   static constexpr std::uint64_t eventsUnwatched = 256;
 
-  void jump(double end, bool deferred) {
-    while (true) {
-      if (++attempts_ % eventsUnwatched == 0) runCallback();
-      const double coagulation = model_.coagulation ? method_.coagulationRate() : 0;
-      const double breakage = model_.breakage ? method_.breakageRate() : 0;
-      const double deposition = model_.deposition ? method_.depositionRate() : 0;
-      const double condensation = condenses_ ? method_.condensationRate() : 0;
-      const double total = coagulation + breakage + deposition + condensation;
-      if (!(total < infinity))
-        throw NumericsError(fmt::format("the rates of the events are too large for numbers at t = {:.6g} s", time_));
-      const double next = total > 0 ? time_ + random_.exponential(total) : infinity;
-      if (schedule_) {
-        if (sampling_ == NucleationSampling::random && method_.nucleusWeight() != plannedWeight_) replanNucleus();
-        if (nucleusTime_ < std::min(next, end)) {
-          nucleate(deferred);
-          continue;
-        }
-      }
-      if (next >= end) {
-        time_ = end;
-        return;
-      }
-      time_ = next;
-      if (deferred) method_.atTime(time_);
-      double choice = total == coagulation ? 0 : random_.uniform() * total;
-      bool happened = false;
-      if (choice < coagulation) {
-        happened = method_.coagulate(random_);
-        if (happened && method_.gelled()) throw GelationError(time_);
-      } else if ((choice -= coagulation) < breakage) {
-        happened = method_.breakUp(random_);
-      } else if ((choice -= breakage) < deposition) {
-        happened = method_.deposit(random_);
-      } else {
-        happened = method_.condense(random_);
-      }
-      if (!happened) ++method_.counters().fictitious;
+  // What the events of the loop do here.
+  struct Events {
+    JumpProcess& of;
+    bool deferred;
+    void look() {
+      if (++of.attempts_ % eventsUnwatched == 0) of.runCallback();
     }
-  }
-
-  // Nuclei are placed along the integral I of the nucleation rate (1/m3). Random: the distance to the next one is
-  // exponentially distributed with mean w, what a nucleus stands for; when w changes, what is left of the distance
-  // changes in proportion, as the exponential distribution has no memory. Even: I is cut into intervals as long as the
-  // weight of their nucleus, which lies at a random place in its interval. Both have the mean I at any time; for the
-  // second, the number put in never differs from it by more than a nucleus or two, whatever w does.
-  void planNucleus(double intervalStart, double reached) {
-    plannedWeight_ = method_.nucleusWeight();
-    intervalStart_ = intervalStart;
-    nucleusAt_ = sampling_ == NucleationSampling::even ? intervalStart + random_.uniform() * plannedWeight_
-                                                       : reached + random_.exponential(1) * plannedWeight_;
-    nucleusTime_ = schedule_->timeOf(nucleusAt_);
-  }
-  void replanNucleus() {
-    const double weight = method_.nucleusWeight(), reached = schedule_->cumulative(time_);
-    nucleusAt_ = reached + (nucleusAt_ - reached) * weight / plannedWeight_;
-    plannedWeight_ = weight;
-    nucleusTime_ = schedule_->timeOf(nucleusAt_);
-  }
-  void nucleate(bool deferred) {
-    time_ = std::max(nucleusTime_, time_);
-    if (deferred) method_.atTime(time_);
-    const double weight = method_.nucleusWeight();
-    method_.nucleate(random_);
-    planNucleus(intervalStart_ + weight, nucleusAt_);
-  }
-
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
+    void setTime(double time) {
+      if (deferred) of.method_.atTime(time);
+    }
+    void giveBirth() {
+      const double weight = of.method_.nucleusWeight();
+      of.method_.nucleate(of.random_);
+      of.births_.bear(weight, of.random_);
+    }
+    template <class Process>
+    void take(const Process&, bool happened) {
+      if (!happened)
+        ++of.method_.counters().fictitious;
+      else if (std::same_as<Process, CoagulationJumps<Method>> && of.method_.gelled())
+        throw GelationError(of.time_);
+    }
+  };
 
   Method method_;
   PopulationModel model_;
   RandomStream random_;
-  NucleationSampling sampling_;
-  std::optional<NucleationSchedule> schedule_;
-  bool condenses_;
+  NucleationBirths<Method> births_;
   double time_ = 0;
   std::uint64_t attempts_ = 0;
-  double intervalStart_ = 0, nucleusAt_ = 0, plannedWeight_ = 0;  // 1/m3
-  double nucleusTime_ = infinity;                                 // s
 };
 
 }  // namespace lampblack::particles

@@ -14,10 +14,12 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/population/engine/split_step.hpp"
 #include "particles/population/gelation_error.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/monte_carlo/growth_jump.hpp"
@@ -70,8 +72,6 @@ class PairProcess final : public PopulationSolver {
 
   [[nodiscard]] double stepTo(double end);
   [[nodiscard]] double nucleationStep(double step, double pace) const;
-  void first(double step);
-  void second(double step);
   [[nodiscard]] bool isNucleus(const Particle& particle) const;
   void nucleate(double from, double to);
   void grow(double step);

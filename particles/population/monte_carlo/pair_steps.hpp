@@ -51,14 +51,30 @@ void PairProcess<Type>::advance(double end) {
     const double step = stepTo(end);
     if (processes_ > 1) ++counters_.splitSteps;
     const double middle = time_ + 0.5 * step, next = time_ + step < end ? time_ + step : end;
-    if (schedule_) nucleate(time_, middle);
-    first(0.5 * step);
-    if (model_.coagulation) {
-      fit();
-      sampling_.advance(population_, step, random_, counters_);
-    }
-    second(0.5 * step);
-    if (schedule_) nucleate(middle, next);
+    double nucleated = time_;  // until when
+    splitStep(
+        step,
+        [&](double) {
+          const double until = nucleated < middle ? middle : next;
+          if (schedule_) nucleate(std::exchange(nucleated, until), until);
+        },
+        [&](double dt) {
+          if (model_.dilution != 0) population_.scaleWeights(std::exp(-model_.dilution * dt));
+        },
+        [&](double dt) {
+          if (grows_) grow(dt);
+        },
+        [&](double dt) {
+          if (model_.breakage) breakUp(dt);
+        },
+        [&](double dt) {
+          if (model_.deposition) deposit(dt);
+        },
+        [&](double dt) {
+          if (!model_.coagulation) return;
+          fit();
+          sampling_.advance(population_, dt, random_, counters_);
+        });
     fit();
     time_ = next;
     measure();
@@ -106,22 +122,6 @@ double PairProcess<Type>::nucleationStep(double step, double pace) const {
     step = std::max(0.5 * step, options_.splitChange / most);
   }
   return step;
-}
-
-template <ParticleType Type>
-void PairProcess<Type>::first(double step) {
-  if (model_.dilution != 0) population_.scaleWeights(std::exp(-model_.dilution * step));
-  if (grows_) grow(step);
-  if (model_.breakage) breakUp(step);
-  if (model_.deposition) deposit(step);
-}
-
-template <ParticleType Type>
-void PairProcess<Type>::second(double step) {
-  if (model_.deposition) deposit(step);
-  if (model_.breakage) breakUp(step);
-  if (grows_) grow(step);
-  if (model_.dilution != 0) population_.scaleWeights(std::exp(-model_.dilution * step));
 }
 
 template <ParticleType Type>

@@ -86,7 +86,7 @@ TEST_P(ExactRates, HaveTheLawOfMajorants) {
           options.repeat = repeat;
           return makeMonteCarlo(setting.model, setting.initial, options);
         },
-        200, 0.7, setting.edges);
+        400, 0.7, setting.edges);
   };
   test::expectSameLaw(run(EventRates::majorant, 1), run(EventRates::exact, 2));
 }
