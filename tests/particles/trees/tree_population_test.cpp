@@ -220,7 +220,9 @@ TEST_P(BooksOfTrees, ThatUnpackTheSameGoOnToTheSameBits) {
   const auto first = populated(nitrogen, options);
   const auto second = makeTreePopulation(options);
   second->unpack(first->pack());
-  EXPECT_EQ(second->pack().size(), first->pack().size());
+  const std::vector<double> packed = first->pack(), again = second->pack();
+  EXPECT_EQ(again.size(), packed.size());
+  for (std::size_t k = 0; k < treeRows.head; ++k) EXPECT_EQ(again[k], packed[k]) << k;
   EXPECT_EQ(second->totals().units, first->totals().units);
   EXPECT_EQ(second->totals().surface, first->totals().surface);
   ASSERT_GT(first->totals().primaries, 1.1 * first->totals().number);
@@ -231,9 +233,22 @@ TEST_P(BooksOfTrees, ThatUnpackTheSameGoOnToTheSameBits) {
   std::vector<double> damaged = first->pack();
   damaged.resize(damaged.size() - 3);
   EXPECT_THROW(third->unpack(damaged), InputError);
-  std::vector<double> former = first->pack();
+  std::vector<double> former = packed;
   former[0] -= 1;
   EXPECT_THAT(messageOf<InputError>([&] { third->unpack(former); }), testing::HasSubstr("begin the run anew"));
+}
+
+// What is due to be born is thinned with the gas.
+TEST(TreePopulation, ThinsBirthsWithTheGas) {
+  Nitrogen nitrogen;
+  nitrogen.concentrations = {2e-6, 0};
+  const auto trees = populated(nitrogen, small());
+  const std::vector<double> before = trees->pack();
+  trees->dilute(0.5);
+  const std::vector<double> after = trees->pack();
+  constexpr std::size_t reached = packedOwnerAt + 3, due = reached + 1;
+  EXPECT_GT(before[due], 0);
+  for (const std::size_t k : {reached, due}) EXPECT_EQ(after[k], 0.5 * before[k]);
 }
 
 // Trees come with any weights and stand for as many as before in the mean; each stays what it was.

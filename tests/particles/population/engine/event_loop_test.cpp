@@ -20,7 +20,7 @@ constexpr int repeats = 4000;
 
 // A population that counts what happens to it.
 struct Tally {
-  int births = 0, happened[2] = {}, fictitious[2] = {};
+  int births = 0, happened[3] = {}, fictitious[3] = {};
   double time = 0;
 };
 template <int Which>
@@ -28,7 +28,7 @@ struct Toy {
   const Tally& of;
   double before, after, accepted;  // bound until the first birth and from then on, 1/s; share of the attempts
   bool isActive = true;
-  [[nodiscard]] double bound() const { return of.births == 0 ? before : after; }
+  [[nodiscard]] double bound() const { return !isActive ? 0 : of.births == 0 ? before : after; }
   [[nodiscard]] bool attempt(RandomStream& random) const { return random.uniform() < accepted; }
 };
 struct TallyHost {
@@ -51,32 +51,35 @@ struct OneBirth {
   void happen() { at = infinity; }
 };
 
-// Of both processes over 2 s, with a birth at `at`.
-Tally tally(int repeat, double at, Toy<0> first, Toy<1> second) {
+// Of the processes over 2 s, with a birth at `at`.
+Tally tally(int repeat, double at, Toy<0> first, Toy<1> second, double third = 0) {
   RandomStream random(7, static_cast<std::uint64_t>(repeat), 3);
   Tally all;
   OneBirth births{at};
   TallyHost host{all};
   double time = 0;
   runEvents(time, 2.0, random, births, host, Toy<0>{all, first.before, first.after, first.accepted, first.isActive},
-            Toy<1>{all, second.before, second.after, second.accepted, second.isActive});
+            Toy<1>{all, second.before, second.after, second.accepted, second.isActive},
+            Toy<2>{all, third, third, 1, third > 0});
   EXPECT_EQ(time, 2.0);
   return all;
 }
 
 TEST(EventLoop, EachProcessHappensAtItsOwnRate) {
   const Tally none;
-  std::vector<double> first, fictitious, second;
+  std::vector<double> first, fictitious, second, third;
   for (int r = 0; r < repeats; ++r) {
-    const Tally all = tally(r, infinity, {none, 3, 0, 0.5}, {none, 1, 0, 1});
+    const Tally all = tally(r, infinity, {none, 3, 0, 0.5}, {none, 1, 0, 1}, 0.25);
     EXPECT_EQ(all.births + all.fictitious[1], 0);
     first.push_back(all.happened[0]);
     fictitious.push_back(all.fictitious[0]);
     second.push_back(all.happened[1]);
+    third.push_back(all.happened[2]);
   }
   EXPECT_LT(std::abs(summarise(first).z(3)), zLimit);
   EXPECT_LT(std::abs(summarise(fictitious).z(3)), zLimit);
   EXPECT_LT(std::abs(summarise(second).z(2)), zLimit);
+  EXPECT_LT(std::abs(summarise(third).z(0.5)), zLimit);
 }
 
 TEST(EventLoop, WaitingTimesGoOnAtTheRatesAfterABirth) {
