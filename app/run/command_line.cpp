@@ -15,6 +15,8 @@
 #include "app/run/problem.hpp"
 #include "app/run/rank_launcher.hpp"
 #include "app/run/warnings.hpp"
+#include "app/study/analysis_command.hpp"
+#include "app/study/analysis_schema.hpp"
 #include "app/study/sweep_command.hpp"
 #include "app/study/sweep_study.hpp"
 #include "app/tools/cases_command.hpp"
@@ -76,7 +78,11 @@ void reference(const Arguments& arguments) {
     std::cout << jsonSchema(deckKinds());
   } else {
     std::cout << markdownReference(deckKinds())
-              << markdownPart(2, "Studies", "Files for `lampblack sweep`, without a `problem`.", studySchema());
+              << markdownPart(2, "Studies", "Files for `lampblack sweep`, without a `problem`.", studySchema())
+              << markdownPart(2, "Analyses",
+                              "Files for `lampblack fit`, `sensitivity`, `propagate`, `design` and `trade_off`, without a "
+                              "`problem`.",
+                              analysisSchema());
   }
 }
 
@@ -152,10 +158,15 @@ int runCommandLine(int argc, char** argv) {
     command = {[&] { run(arguments); }, true};
   });
 
-  CLI::App* checkCommand = app.add_subcommand("check", "Read everything a deck names and run nothing.");
-  checkCommand->add_option("deck", arguments.deck, "Input deck (YAML).")->required();
+  CLI::App* checkCommand = app.add_subcommand("check", "Read everything a deck or an analysis names and run nothing.");
+  checkCommand->add_option("deck", arguments.deck, "Input deck or analysis (YAML).")->required();
   checkCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
-  checkCommand->callback([&] { command = {[&] { check(arguments); }, true}; });
+  checkCommand->callback([&] {
+    if (isAnalysis(arguments.deck))
+      command = {[&] { checkAnalysis(arguments.deck, arguments.overrides); }};
+    else
+      command = {[&] { check(arguments); }, true};
+  });
 
   CLI::App* referenceCommand = app.add_subcommand("deck-reference", "Print all keys of a deck.");
   referenceCommand->add_flag("--json-schema", arguments.json, "As a JSON schema for editors.");
@@ -165,6 +176,7 @@ int runCommandLine(int argc, char** argv) {
   addMechanismCommand(app, command);
   addReplayCommand(app, command);
   addSweepCommand(app, command);
+  addAnalysisCommands(app, command);
   addPlotCommand(app, command);
   addCasesCommand(app, command);
   addWhereCommand(app, command);
