@@ -175,7 +175,7 @@ int runCommandLine(int argc, char** argv) {
   addGasCommand(app, command);
   addMechanismCommand(app, command);
   addReplayCommand(app, command);
-  addSweepCommand(app, command);
+  addSweepCommand(app, command, arguments.ranks);
   addAnalysisCommands(app, command);
   addPlotCommand(app, command);
   addCasesCommand(app, command);

@@ -20,13 +20,6 @@ namespace {
 
 constexpr const char* launchedByUs = "LAMPBLACK_LAUNCHED";
 
-// That this process may use.
-int processors() {
-  cpu_set_t set;
-  CPU_ZERO(&set);
-  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
-}
-
 std::string launcher() {
   if (const char* chosen = std::getenv("LAMPBLACK_MPIRUN"); chosen != nullptr) {
     if (const auto found = findProgram(chosen)) return *found;
@@ -92,6 +85,12 @@ std::vector<std::string> launch(int ranks) {
 #endif
 
 }  // namespace
+
+int processors() {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  return sched_getaffinity(0, sizeof set, &set) == 0 ? CPU_COUNT(&set) : 1;
+}
 
 bool needsLauncher(int ranks) {
   return ranks > 1 && !startedByLauncher() && std::getenv(launchedByUs) == nullptr;

@@ -9,6 +9,9 @@
 
 namespace lampblack::app {
 
+// Processors that this process may use.
+int processors();
+
 // Whether this process has to become several: it was asked for more than one rank and is no rank of a launcher itself.
 bool needsLauncher(int ranks);
 

@@ -38,8 +38,8 @@ void addDecksAndParameters(DeckSchema& schema) {
                                            "middle of the range on its scale.")
                .optional())
       .add(stringKey("parameters[].set",
-                     "Assignments to keys of the decks, with the parameters' names in braces for their values: "
-                     "['particles.surface.growth=[{A}, 1.56, 3.8]'].")
+                     "Assignments to keys of the decks, with the parameters' names in braces for their values, or for a multiple: "
+                     "['particles.surface.growth=[{A}, 1.56, 3.8]', 'particles.sticking=[{f*0.002}]'].")
                .list()
                .byDefault("[]"))
       .add(stringKey("parameters[].shift",
@@ -60,7 +60,8 @@ void addDecksAndParameters(DeckSchema& schema) {
 void addData(DeckSchema& schema) {
   schema.section("quantities", Presence::required, "What is taken from a run, by names that measurements use.")
       .add(stringKey("quantities.*.result",
-                     "A single number: a key of the object \"results\" of run.json, its parts joined by dots.")
+                     "A single number: a key of the object \"results\" of run.json, its parts joined by dots, of a list its "
+                     "place from 0: methods.mmc.moments.0.")
                .optional())
       .add(stringKey("quantities.*.table", "A CSV table of the run: history.csv, profile.csv.").optional())
       .add(stringKey("quantities.*.column", "Its column, without the unit.").optional())

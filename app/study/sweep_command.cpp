@@ -8,10 +8,12 @@
 #include <memory>
 
 #include "app/population_balance/convergence_study.hpp"
+#include "app/run/rank_launcher.hpp"
 #include "app/study/sweep_run.hpp"
 #include "app/study/sweep_study.hpp"
 #include "app/study/sweep_table.hpp"
 #include "core/errors.hpp"
+#include "core/parallel_session.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 #include "core/text_file.hpp"
@@ -26,7 +28,7 @@ struct SweepArguments {
   std::string study;
   std::vector<std::string> overrides, settings;
   std::string folder;
-  bool force = false, check = false;
+  bool force = false, check = false, sideBySide = false;
 };
 
 int rankOf(MPI_Comm comm) {
@@ -102,9 +104,7 @@ void writeTables(const SweepStudy& study, const std::vector<RunOutcome>& outcome
   std::erase(names, "message");
   for (std::string& name : names) name = withoutUnit(name);
   fmt::print("{}", alignedText(shownColumns(table, names)));
-  for (std::size_t i = 0; i < outcomes.size(); ++i) {
-    if (outcomes[i].failure != RunFailure::none) fmt::print("{}: {}\n", study.runs[i].name, outcomes[i].message);
-  }
+  fmt::print("{}", failureSummary(study, outcomes));
   writeFileAtomically(folder / "study.json", studyJson(study, outcomes, table));
   fmt::print("study in {}\n", folder.string());
 }
@@ -160,7 +160,7 @@ void sweep(const SweepArguments& arguments) {
 
 }  // namespace
 
-void addSweepCommand(CLI::App& app, Command& command) {
+void addSweepCommand(CLI::App& app, Command& command, int& ranks) {
   const auto arguments = std::make_shared<SweepArguments>();
   CLI::App* subcommand = app.add_subcommand("sweep", "Run a study: many decks, or many variants of one, and a table.");
   subcommand->add_option("study", arguments->study, "Study (YAML).")->required();
@@ -171,7 +171,13 @@ void addSweepCommand(CLI::App& app, Command& command) {
       ->default_val("results/study");
   subcommand->add_flag("--force", arguments->force, "Replace an earlier study in that folder.");
   subcommand->add_flag("--check", arguments->check, "Read the study and its decks, name the runs, and run nothing.");
-  subcommand->callback([arguments, &command] { command = {[arguments] { sweep(*arguments); }, true}; });
+  subcommand->add_flag("--side-by-side", arguments->sideBySide,
+                       "Runs side by side, each on one rank (ranks_per_run=1), on all processors, or on those of --ranks.");
+  subcommand->callback([arguments, &command, &ranks] {
+    if (arguments->sideBySide) arguments->overrides.emplace_back("ranks_per_run=1");
+    if (arguments->sideBySide && ranks == 0 && !startedByLauncher()) ranks = processors();
+    command = {[arguments] { sweep(*arguments); }, true};
+  });
 }
 
 }  // namespace lampblack::app

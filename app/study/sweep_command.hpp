@@ -11,7 +11,8 @@ class App;
 
 namespace lampblack::app {
 
-// Adds the subcommand to the command line; when it is chosen, parsing sets `command` to what has to run.
-void addSweepCommand(CLI::App& app, Command& command);
+// Adds the subcommand to the command line; when it is chosen, parsing sets `command` to what has to run. The option
+// --side-by-side sets `ranks`, as --ranks does, to all processors.
+void addSweepCommand(CLI::App& app, Command& command, int& ranks);
 
 }  // namespace lampblack::app

@@ -1,9 +1,11 @@
 #include "app/study/sweep_table.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -57,6 +59,11 @@ bool isNumber(const std::string& text) {
   return end == text.c_str() + text.size();
 }
 
+// Of such a text; one too small for the normal numbers, which std::stod refuses, is read as near as can be.
+double numberOf(const std::string& text) {
+  return std::strtod(text.c_str(), nullptr);
+}
+
 // Length on the console: the bytes inside a UTF-8 character take no room.
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(
@@ -96,7 +103,7 @@ std::string alignedText(const TextTable& table) {
   std::vector<std::size_t> widths(count);
   // Numbers are long where they are exact; five digits are enough to look at.
   const auto shown = [](const std::string& text) {
-    return isNumber(text) && text.find_first_of(".eE") != std::string::npos ? fmt::format("{:.5g}", std::stod(text))
+    return isNumber(text) && text.find_first_of(".eE") != std::string::npos ? fmt::format("{:.5g}", numberOf(text))
                                                                             : text.substr(0, text.find('\n'));
   };
   const auto measure = [&](const std::vector<std::string>& row) {
@@ -168,6 +175,34 @@ TextTable stackedTable(const SweepStudy& study, const std::string& name, const s
   return stacked;
 }
 
+std::string failureSummary(const SweepStudy& study, const std::vector<RunOutcome>& outcomes) {
+  struct Group {
+    const RunOutcome* outcome;
+    std::vector<std::string> names;
+  };
+  std::vector<Group> groups;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    const RunOutcome& outcome = outcomes[i];
+    if (outcome.failure == RunFailure::none) continue;
+    auto group = std::ranges::find_if(groups, [&](const Group& other) {
+      return other.outcome->failure == outcome.failure && other.outcome->message == outcome.message;
+    });
+    if (group == groups.end()) group = groups.insert(groups.end(), Group{&outcome, {}});
+    group->names.push_back(study.runs[i].name);
+  }
+  std::ranges::stable_sort(groups, std::ranges::greater{}, [](const Group& group) { return group.names.size(); });
+  constexpr std::size_t mostNames = 3;
+  std::string text;
+  for (const auto& [outcome, names] : groups) {
+    const std::vector<std::string> first(names.begin(),
+                                         names.begin() + static_cast<std::ptrdiff_t>(std::min(mostNames, names.size())));
+    text += fmt::format("{} ({}", fmt::join(first, ", "), wordFor(outcome->failure));
+    if (names.size() > mostNames) text += fmt::format(", and {} more", names.size() - mostNames);
+    text += fmt::format("): {}\n", outcome->message);
+  }
+  return text;
+}
+
 std::string studyJson(const SweepStudy& study, const std::vector<RunOutcome>& outcomes, const TextTable& table) {
   JsonWriter json;
   json.beginObject();
@@ -193,7 +228,7 @@ std::string studyJson(const SweepStudy& study, const std::vector<RunOutcome>& ou
       if (text.empty())
         json.null();
       else if (isNumber(text))
-        json.value(std::stod(text));
+        json.value(numberOf(text));
       else
         json.value(text);
     }

@@ -33,6 +33,10 @@ TextTable studyTable(const SweepStudy& study, const std::vector<RunOutcome>& out
 // run that has the table, then what others have besides. No rows where no run has one.
 TextTable stackedTable(const SweepStudy& study, const std::string& name, const std::filesystem::path& folder);
 
+// The runs that failed, those with one message together, the most of them first: how they ended, how many, the first
+// names, and the message. Empty where none failed.
+std::string failureSummary(const SweepStudy& study, const std::vector<RunOutcome>& outcomes);
+
 // study.json.
 std::string studyJson(const SweepStudy& study, const std::vector<RunOutcome>& outcomes, const TextTable& table);
 

@@ -76,6 +76,31 @@ class Table(collections.abc.Mapping):
     def __repr__(self):
         return f"<Table of {self.rows} rows: {', '.join(name + (f' [{c.unit}]' if c.unit else '') for name, c in self.items())}>"
 
+    def sorted_by(self, *names, descending=False):
+        """The rows in the order of a column, of those alike by the next; numbers that are not known come last."""
+        order = np.lexsort([np.asarray(self[name]) for name in reversed(names)], axis=0)
+        if descending:
+            order = order[::-1]
+            known = np.asarray(self[names[0]])[order]
+            unknown = np.isnan(known) if known.dtype.kind == "f" else np.zeros(len(order), bool)
+            order = np.concatenate([order[~unknown], order[unknown]])
+        return Table((name, column[order]) for name, column in self.items())
+
+    def joined(self, other, on):
+        """Each row with the columns of the row of another table that has the same in the columns `on` (a name or several); rows without one
+        are left out, columns of other kinds than `on` that both have get `_2`. ValueError where the other has two such rows."""
+        on = [on] if isinstance(on, str) else list(on)
+        places = {}
+        for row, key in enumerate(zip(*(np.asarray(other[name]).tolist() for name in on))):
+            if key in places:
+                raise ValueError(f"two rows of the other table have {', '.join(map(str, key))} in {', '.join(on)}")
+            places[key] = row
+        pairs = [(row, places[key]) for row, key in enumerate(zip(*(np.asarray(self[name]).tolist() for name in on))) if key in places]
+        here, there = (np.array(rows, int) for rows in (zip(*pairs) if pairs else ((), ())))
+        columns = {name: column[here] for name, column in self.items()}
+        columns.update((name if name not in self else f"{name}_2", column[there]) for name, column in other.items() if name not in on)
+        return Table(columns)
+
     def to_pandas(self):
         """A DataFrame, with the units in attrs['units']; columns of several numbers a row become columns name_0, name_1, ..."""
         import pandas

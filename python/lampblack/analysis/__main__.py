@@ -14,18 +14,26 @@ TABLES = ("points.csv", "searches.csv", "fit.csv", "residuals.csv", "errors.csv"
           "errors_expected.csv", "posterior.h5", "analysis.json", "report.txt")
 
 
-def check(problem):
-    """Reads the measurements and asks the program whether a run of each deck could begin."""
+def check_decks(problem):
+    """Asks the program whether a run of each deck could begin, the parameters at their start. InputError with the parameter's name."""
     from ..program import check as check_deck
+
+    for experiment in problem.experiments:
+        pairs = [assignment.partition("=")[::2] for assignment in problem.settings(experiment, problem.start)]
+        try:
+            check_deck(experiment.deck, set=dict(pairs))
+        except InputError as error:
+            key = (error.setting or "").partition("=")[0]
+            name = next((p.name for p in problem.parameters for assignment in p.set if key and assignment.partition("=")[0] == key), None)
+            raise InputError(f"{problem.path}: deck {experiment.name}{f', parameter {name}' if name else ''}: {error.message}") from error
+
+
+def check(problem):
+    """Reads all that an analysis names."""
     from .measurements import read_measurements
 
     rows = read_measurements(problem)
-    for experiment in problem.experiments:
-        settings = {}
-        for assignment in problem.settings(experiment, problem.start):
-            key, _, value = assignment.partition("=")
-            settings[key] = value
-        check_deck(experiment.deck, set=settings)
+    check_decks(problem)
     print(f"{problem.path} is a valid analysis: {len(problem.parameters)} parameters, {len(problem.experiments)} decks, {len(rows)} measurements.")
 
 
@@ -58,6 +66,8 @@ def work_on(arguments, problem):
     from .studies import design, propagate, sensitivity
 
     work = begin(arguments, problem)
+    if not work.runs.any:
+        check_decks(problem)
     work.say(f"{problem.name}: {arguments.task}")
     {"fit": fit, "sensitivity": sensitivity, "propagate": propagate, "design": design, "trade_off": trade_off}[arguments.task](work)
     (work.folder / "report.txt").write_text("\n".join(work.lines) + "\n", encoding="utf-8")
@@ -102,7 +112,7 @@ def main():
     except Stopped as error:
         return told("stopped: ", error, error.exit_code)
     except LampblackError as error:
-        return told("internal error (a bug in Lampblack): ", error, 1)
+        return told("", error, 1)
     except KeyboardInterrupt:
         print("lampblack: stopped; the runs that have ended are kept, and the same command goes on", file=sys.stderr)
         return 130

@@ -32,7 +32,7 @@ class Model:
 
     def make_surrogates(self, points, values, errors):
         transformed = self.target.transformed(values)
-        self.surrogates = self.work.surrogates(points, transformed, [o.name for o in self.target.outputs])
+        self.surrogates = self.work.surrogates(points, transformed, [o.name for o in self.target.outputs], 0.3 * self.target.sigma)
         own = np.nan_to_num(np.nanmean(self.target.transformed_errors(values, errors), axis=0))
         # What a surrogate misses counts as an error too; where runs are stochastic their scatter is in it.
         self.noise = np.maximum(own, [s.deviation for s in self.surrogates])

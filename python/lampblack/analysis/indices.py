@@ -45,7 +45,7 @@ def saltelli_indices(values, count, seed, repeats=500):
 
 
 def morris_points(trajectories, dimensions, levels, seed):
-    """Trajectories of d + 1 points on levels, and the parameters in the order in which each moves them, with the sign of the step."""
+    """Trajectories of d + 1 points on levels, one below the other, and the parameters in the order in which each moves them, with the sign of the step."""
     if levels % 2:
         raise InputError(f"sensitivity.levels: an even number is expected, found {levels}")
     draw = np.random.default_rng(seed)

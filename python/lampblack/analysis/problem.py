@@ -10,7 +10,7 @@ from scipy.stats import norm
 from ..errors import InputError
 
 _NAME = re.compile(r"[A-Za-z_]\w*$")
-_PLACE = re.compile(r"\{([A-Za-z_]\w*)\}")
+_PLACE = re.compile(r"\{([A-Za-z_]\w*)(?:\*([\d.]+(?:[eE][+-]?\d+)?))?\}")  # {A}, or a multiple of it: {f*0.002}
 
 
 class Parameter:
@@ -136,13 +136,13 @@ class Problem:
                     raise InputError(f"parameters[{i}].set: {key} is set by the parameter {keys[key]} already; one assignment may have several "
                                      "parameters in it")
                 keys[key] = parameter.name
-                for name in _PLACE.findall(assignment):
+                for name, _ in _PLACE.findall(assignment):
                     if name not in names:
                         raise InputError(f"parameters[{i}].set: there is no parameter {name}, which stands in '{assignment}'")
             for name in parameter.shift:
                 if name not in decks:
                     raise InputError(f"parameters[{i}].shift: there is no deck of the name {name}; expected one of {', '.join(decks)}")
-        used = {name for p in self.parameters for assignment in p.set for name in _PLACE.findall(assignment)}
+        used = {name for p in self.parameters for assignment in p.set for name, _ in _PLACE.findall(assignment)}
         for i, parameter in enumerate(self.parameters):
             if parameter.name not in used and not parameter.shift:
                 raise InputError(f"parameters[{i}].set: {{{parameter.name}}} stands in no assignment")
@@ -162,7 +162,7 @@ class Problem:
     def settings(self, experiment, x):
         """What a run of this experiment is told at a point."""
         values = self.values(x)
-        filled = [_PLACE.sub(lambda match: repr(values[match[1]]), text) for p in self.parameters for text in p.set]
+        filled = [_PLACE.sub(lambda match: repr(values[match[1]] * float(match[2] or 1)), text) for p in self.parameters for text in p.set]
         return [*experiment.set, *filled]
 
     def shift(self, experiment, x):

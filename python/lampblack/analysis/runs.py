@@ -51,6 +51,11 @@ class Runs:
             else:
                 self._note(study.parent)
 
+    @property
+    def any(self):
+        """Whether there are some."""
+        return bool(self._places or self._failed)
+
     def _note(self, batch):
         """What a batch that has ended left."""
         for run in json.loads((batch / "study.json").read_text(encoding="utf-8"))["runs"]:
@@ -163,7 +168,10 @@ exec {shutil.which("lampblack") or executable()} sweep "$batch/study.yaml" --out
         def look(name):
             at = numbers
             for part in name.split("."):
-                at = at.get(part) if isinstance(at, dict) else None
+                if isinstance(at, list):
+                    at = at[int(part)] if part.isdigit() and int(part) < len(at) else None
+                else:
+                    at = at.get(part) if isinstance(at, dict) else None
             return at
 
         quantity = output.quantity

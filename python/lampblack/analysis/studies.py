@@ -103,9 +103,7 @@ def sensitivity(work):
             rows += [[o.name, name, *first[i], *total[i]] for i, name in enumerate(names)]
     elif method == "morris":
         points, moves = indices.morris_points(options["trajectories"], problem.dimensions, options["levels"], work.seed)
-        flat = points.reshape(-1, problem.dimensions)
-        values, errors = work.asked(flat, outputs, "trajectories")
-        points = flat
+        values, errors = work.asked(points, outputs, "trajectories")
         head = ["output", "parameter", "mu", "mu_star", "sigma"]
         for o, f in zip(outputs, _transformed(outputs, values).T):
             rows += [[o.name, name, *effect] for name, effect in zip(names, indices.morris_effects(f, moves, options["levels"]))]

@@ -67,14 +67,15 @@ class Work:
             raise NumericsError(f"{what}: no point has all its runs: {self.runs.failure(points[0])}")
         return values, errors
 
-    def surrogates(self, points, values, names):
-        """One of each column of values, from the points that ran; NumericsError where one is too poor."""
+    def surrogates(self, points, values, names, enough=None):
+        """One of each column of values, from the points that ran. NumericsError where one is too poor, unless it misses by less than is
+        `enough` for its column: what hardly changes need not be known well."""
         options = self.options["surrogate"]
         made = []
         for k, name in enumerate(names):
             good = np.isfinite(values[:, k])
             made.append(Surrogate(points[good], values[good, k], options["order"], options["pairs"]))
-            if made[-1].r2 < options["least_r2"]:
+            if made[-1].r2 < options["least_r2"] and (enough is None or made[-1].deviation > enough[k]):
                 raise NumericsError(
                     f"surrogate: that of {name} has R2 = {made[-1].r2:.3f} at the points held out, below surrogate.least_r2 = {options['least_r2']:g}; "
                     "more points (design.points), smaller ranges, a higher order, or a transform of the quantity may help")

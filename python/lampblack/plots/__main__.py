@@ -2,8 +2,9 @@
 cells also a film), history; of a reactor its history, ignition and sensitivities, and where it has tables of every particle
 micrographs, distributions and averages by size; of particles along a given gas their history, rates and sizes; of a population
 balance moments, errors and
-size distributions; of molecules their growth, mass spectrum and rings; of a one-dimensional flame its profiles, soot and sensitivities; of a study its runs compared, and errors against numbers
-of particles; of several one-dimensional flames one picture that compares them.
+size distributions; of molecules their growth, mass spectrum and rings; of a one-dimensional flame its profiles, soot and sensitivities; of a study its
+runs compared, and errors against numbers of particles; of several one-dimensional flames one picture that compares them; of an analysis measurements and
+runs, indices, pairs of parameters, the objective, bands, fronts.
 
 Usage: lampblack plot RESULTS_DIR [RESULTS_DIR...] [--reference CSV]... [--fields FIELD...]
 """
@@ -27,7 +28,9 @@ def main():
     folders, arguments.results = arguments.results, arguments.results[0]
 
     try:
+        from ..analysis.folder import is_analysis
         from .along import plot_along
+        from .analyses import plot_analysis
         from .ensembles import plot_ensembles
         from .fields import plot_fields
         from .flame import plot_flame, plot_together
@@ -57,6 +60,9 @@ def main():
             if not all(Results(folder).is_flame for folder in folders):
                 raise ResultsError("only one-dimensional flames can be compared in one picture")
             plot_together(folders, pictures)
+            return finish(arguments, pictures)
+        if is_analysis(arguments.results):
+            plot_analysis(arguments.results, pictures)
             return finish(arguments, pictures)
         if is_study(arguments.results):
             (plot_flame_study if is_flame_study(arguments.results) else plot_study)(arguments.results, pictures)

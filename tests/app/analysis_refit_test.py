@@ -1,0 +1,110 @@
+"""Two constants of soot are found again from synthetic measurements: volume fraction and number at ten places of a duct at three
+temperatures, with errors of 10 %, from bounds a factor of ten to each side. Of 20 seeds 19 at least lie within two errors.
+
+Usage: analysis_refit_test.py EXECUTABLE [--ensemble] [--surrogate] [SEEDS]
+"""
+
+import contextlib
+import csv
+import io
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import running
+
+np = running.package("numpy")
+running.needs("h5py", "scipy")
+os.environ["LAMPBLACK_PROGRAM"] = str(pathlib.Path(sys.argv[1]).resolve())
+os.environ.update(running.environment())
+sys.path.insert(0, str(running.SOURCE / "python"))
+
+from lampblack.analysis.fit import fit  # noqa: E402
+from lampblack.analysis.measurements import Output  # noqa: E402
+from lampblack.analysis.problem import Problem  # noqa: E402
+from lampblack.analysis.work import Work  # noqa: E402
+
+DUCT = running.SOURCE / "cases/reactor/plug_flow_soot/deck.yaml"
+TRUE = {"alpha": 0.3, "stick": 2e-3}  # how much of the surface is active, and how often molecules stick when they meet
+ENSEMBLE = ["particles.description=ensemble", "particles.number=256", "particles.repeats=4", "particles.pah=[A2]"]
+TEMPERATURES = (1700, 1800, 1900)
+PLACES = [0.01 * (i + 1) for i in range(9)] + [0.1]
+
+
+def analysis(folder, *, ensemble, surrogate):
+    """The file, with bounds about a factor of ten to each side of the truth, a share of all sites at most."""
+    decks = [{"name": f"T{T}", "deck": str(DUCT), "set": [f"inlet.temperature={T} K", "output.spacing=10 mm", "particles.condensation=false",
+                                                           *(ENSEMBLE if ensemble else [])]} for T in TEMPERATURES]
+    parameters = [
+        {"name": "alpha", "from": 0.03, "to": 1, "scale": "log", "set": ["particles.alpha={alpha}"]},
+        {"name": "stick", "from": 1.8e-4, "to": 1.6e-2, "scale": "log", "set": ["particles.sticking=[{stick}]"]}]
+    quantities = {"fv": {"table": "history.csv", "column": "soot_volume_fraction", "along": "position", "transform": "log10"},
+                  "number": {"table": "history.csv", "column": "soot_number_density", "along": "position", "transform": "log10"}}
+    text = {"analysis": "two constants of soot", "runs": "runs", "decks": decks, "parameters": parameters, "quantities": quantities,
+            "measurements": {"files": ["data.csv"]}, "design": {"points": 32 if ensemble else 64}, "surrogate": {"order": 6},
+            "optimise": {"on": "surrogate" if surrogate else "runs", "starts": 1, "step": 0.1 if ensemble else 0.02, "tolerance": 1e-4}}
+    path = folder / "analysis.yaml"
+    path.write_text(json.dumps(text), encoding="utf-8")
+    return path
+
+
+def resolved(path):
+    """As the program hands it over: by a python3 that prints its arguments."""
+    echo = path.with_name("python3")
+    echo.write_text('#!/bin/sh\nif [ "$1" = -c ]; then exit 0; fi\nprintf %s "$6"\n', encoding="utf-8")
+    echo.chmod(0o755)
+    done = subprocess.run([os.environ["LAMPBLACK_PROGRAM"], "fit", str(path)], env={**os.environ, "LAMPBLACK_PYTHON": str(echo)}, capture_output=True,
+                          text=True, check=True)
+    return json.loads(done.stdout)
+
+
+def write_data(folder, problem, values, outputs, seed):
+    draw = np.random.default_rng(seed)
+    with open(folder / "data.csv", "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["deck", "quantity", "abscissa [cm]", "value", "error [%]", "source"])
+        for output, value in zip(outputs, values):
+            table.writerow([output.experiment.name, output.quantity.name, 100 * output.place, value * (1 + 0.1 * draw.standard_normal()), 10, "synthetic"])
+
+
+def main():
+    ensemble, surrogate = "--ensemble" in sys.argv, "--surrogate" in sys.argv
+    seeds = int(sys.argv[-1]) if sys.argv[-1].isdigit() else 20
+    kept = os.environ.get("LAMPBLACK_REFIT_FOLDER")
+    with tempfile.TemporaryDirectory() as made:
+        folder = pathlib.Path(kept or made)
+        path = analysis(folder, ensemble=ensemble, surrogate=surrogate)
+        options = resolved(path)
+        problem = Problem(options, path)
+        outputs = [Output(e, q, place) for e in problem.experiments for q in problem.quantities.values() for place in PLACES]
+        truth = np.array([[p.place(TRUE[p.name]) for p in problem.parameters]])
+        if ensemble:  # the truth is another ensemble, of more particles
+            for e in problem.experiments:
+                e.set = [*e.set, "particles.repeats=16", "particles.seed=77"]
+        values, noise = Work(problem, folder).runs.values(truth, outputs)
+        problem = Problem(options, path)
+        work = Work(problem, folder)
+        assert not ensemble or np.all(noise > 0), "an ensemble has no noise in the objective"
+        within, rows = 0, []
+        for seed in range(seeds):
+            write_data(folder, problem, values[0], outputs, seed)
+            with contextlib.redirect_stdout(io.StringIO()):
+                best = fit(work)
+            with open(folder / "fit.csv", newline="", encoding="utf-8") as file:
+                found = list(csv.DictReader(file))
+            with open(folder / "analysis.json", encoding="utf-8") as file:
+                record = json.load(file)
+            off = [(float(b) - float(t)) * float(p.slope(b)) / float(row["error"]) for b, t, p, row in zip(best, truth[0], problem.parameters, found)]
+            within += max(map(abs, off)) <= 2
+            rows.append(off)
+            print(f"seed {seed}: {record['best']} off by {off[0]:+.2f} and {off[1]:+.2f} errors, objective {record['phi_best']:.1f} "
+                  f"of {record['degrees_of_freedom']}", flush=True)
+        print(f"{within} of {seeds} within two errors; root mean squares {np.sqrt(np.mean(np.square(rows), axis=0))}")
+        assert within >= 0.95 * seeds - 1e-9, f"{within} of {seeds}"
+
+
+if __name__ == "__main__":
+    main()
