@@ -28,6 +28,8 @@ void addDecksAndParameters(DeckSchema& schema) {
                      "fit: its measurements are fitted; validate: they are only compared with the fit; candidate: an "
                      "experiment that could be made, for `design`.")
                .byDefault("fit"))
+      .add(numberKey("decks[].abscissa_from", "Its measurements at smaller abscissae (SI) are left out.").optional())
+      .add(numberKey("decks[].abscissa_to", "Its measurements at larger abscissae (SI) are left out.").optional())
       .section("parameters", Presence::required, "What is varied, between bounds.")
       .add(stringKey("parameters[].name", "Its name in templates: letters, digits and _."))
       .add(numberKey("parameters[].from", "Lower bound."))

@@ -1,18 +1,18 @@
-"""Lampblack from Python: results as arrays with units, runs and sweeps of the program, pictures (`lampblack.plots`).
+"""Lampblack from Python: results as arrays with units, runs, sweeps and analyses of the program, pictures (`lampblack.plots`).
 
     import lampblack
     flame = lampblack.run("free_methane/deck.yaml", set={"inlet.equivalence_ratio": 0.8}, out="results/lean")
     flame.profile()["temperature"].max(), flame.profile()["temperature"].unit
     lampblack.open("results/lean").history().to_pandas()
 
-Needs numpy and h5py. pandas and xarray are used where they are asked for, matplotlib where pictures are made.
+Needs numpy and h5py. pandas and xarray are used where they are asked for, matplotlib where pictures are made, scipy where an analysis runs.
 """
 
 import importlib
 
 _PLACES = {
     "open": "opening", "Results": "results", "Study": "study", "Array": "arrays", "Table": "arrays",
-    "Distribution": "distributions", "run": "program", "check": "program", "sweep": "program",
+    "Distribution": "distributions", "run": "program", "check": "program", "sweep": "program", "analyse": "program", "Analysis": "analysis.folder",
     "LampblackError": "errors", "InputError": "errors", "NumericsError": "errors", "MachineError": "errors", "Stopped": "errors",
     "ProgramBug": "errors", "ResultsError": "errors",
 }  # fmt: skip

@@ -7,6 +7,7 @@ import shutil
 import subprocess
 import tempfile
 
+from .analysis.folder import Analysis
 from .errors import error_of
 from .opening import open as opened
 from .study import Study
@@ -59,6 +60,14 @@ def run(deck, set=None, out=None, ranks=1, force=False):
     out = pathlib.Path(out or pathlib.Path("results") / _name(deck))
     _call("run", deck, *_settings(set), "--out", out, *(["--ranks", ranks] if ranks > 1 else []), *(["--force"] if force else []))
     return opened(out)
+
+
+def analyse(task, analysis, set=None, out=None, ranks=None, force=False):
+    """Carries out an analysis (`task`: fit, sensitivity, propagate, design or trade_off) and opens what it left. `set` has other values for keys
+    of the analysis; runs go side by side on all processors, or on so many `ranks`."""
+    out = pathlib.Path(out or pathlib.Path("results") / f"{_name(analysis)}_{task}")
+    _call(task, analysis, *_settings(set), "--out", out, *(["--ranks", ranks] if ranks else []), *(["--force"] if force else []))
+    return Analysis(out)
 
 
 def sweep(deck, vary=None, set=None, out=None, ranks=1, chain=1, force=False, allow_failures=False):

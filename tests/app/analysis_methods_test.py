@@ -1,7 +1,7 @@
 """Methods of the analyses on functions whose answers are known: designs, surrogates, indices, searches, errors of parameters, samplers,
 choices of experiments, units.
 
-Usage: analysis_methods_test.py [--all]
+Usage: analysis_methods_test.py [EXECUTABLE] [--all]
 """
 
 import importlib.util
@@ -78,6 +78,10 @@ def check_designs():
     assert one.tolist() == [[0.5, 0.25], [0, 0.25], [1, 0.25], [0.5, 0], [0.5, 0.5], [0.5, 1]], one
 
 
+def sparse_of(x):
+    return surrogate.Surrogate(x, np.exp(x[:, 1]), 5)
+
+
 def check_surrogates():
     """Polynomials are found exactly; Ishigami's and the g function's indices from the coefficients; noise is no structure."""
     x = designs.sobol(64, 3, 3)
@@ -94,6 +98,8 @@ def check_surrogates():
     assert noise.r2 < 0.3, noise.r2
     alone = surrogate.Surrogate(x, x[:, 0] * x[:, 1] + x[:, 2], 3, pairs=False)
     assert (alone.terms > 0).sum(axis=1).max() == 1
+    both = surrogate.Together([made, alone, sparse_of(x)])(y)
+    assert np.allclose(both, np.stack([made(y), alone(y), sparse_of(x)(y)], axis=1), atol=1e-12)
     exact = np.array([[3 / 7, 3 / 7], [4 / 7, 4 / 7]])
     product = surrogate.Surrogate(x[:, :2], x[:, 0] * x[:, 1], 3)  # variance 7/144, of each alone 1/48
     assert np.allclose(product.sobol_indices(), exact, atol=1e-10) and abs(product.variance - 7 / 144) < 1e-12 and abs(product.mean - 0.25) < 1e-12

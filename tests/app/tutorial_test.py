@@ -41,7 +41,9 @@ def main(build, cmake):
         assert len(strained) == 3 and strained == sorted(strained, reverse=True), strained
         left, law = map(float, re.search(r"C2H2 left (\S+) of it, by the law (\S+)", said).groups())
         assert abs(left / law - 1) < 1e-2
-        for picture in ("methane", "soot", "strain", "ignition"):
+        stick = float(re.search(r"^stick,([0-9.e-]+),", said, re.M)[1])
+        assert 2e-4 < stick < 5e-3, stick
+        for picture in ("methane", "soot", "strain", "ignition", "duct_fit"):
             assert list((folder / f"results/{picture}/pictures").glob("*.png")), picture
     return 0
 

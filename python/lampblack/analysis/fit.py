@@ -9,6 +9,7 @@ from . import posterior
 from .measurements import read_measurements
 from .objective import Objective
 from .search import jacobian, objective, search
+from .surrogate import Together
 from .tables import aligned, write_best, write_points, write_record, write_table
 
 AT_BOUND = 1e-3  # of the range
@@ -19,7 +20,7 @@ class Model:
     """Residuals at points, by true runs or by surrogates of the transformed values."""
 
     def __init__(self, work, target):
-        self.work, self.target, self.surrogates, self.noise = work, target, None, None
+        self.work, self.target, self.surrogates, self.together, self.noise = work, target, None, None, None
 
     def by_runs(self, points):
         values, errors = self.work.runs.values(points, self.target.outputs)
@@ -27,12 +28,12 @@ class Model:
 
     def by_surrogates(self, points):
         points = np.atleast_2d(points)
-        values = np.stack([s(points) for s in self.surrogates], axis=1)
-        return self.target.residuals(values, self.noise, points)
+        return self.target.residuals(self.together(points), self.noise, points)
 
     def make_surrogates(self, points, values, errors):
         transformed = self.target.transformed(values)
         self.surrogates = self.work.surrogates(points, transformed, [o.name for o in self.target.outputs], 0.3 * self.target.sigma)
+        self.together = Together(self.surrogates)
         own = np.nan_to_num(np.nanmean(self.target.transformed_errors(values, errors), axis=0))
         # What a surrogate misses counts as an error too; where runs are stochastic their scatter is in it.
         self.noise = np.maximum(own, [s.deviation for s in self.surrogates])
@@ -98,7 +99,7 @@ def _profiles(work, model, best):
     rows = []
     for i, p in enumerate(work.problem.parameters):
         x = best.copy()
-        for place in np.linspace(0, 1, 41):
+        for place in np.linspace(0, 1, 31):
             def rest(points, i=i, place=place):
                 points = np.array(points)
                 points[:, i] = place

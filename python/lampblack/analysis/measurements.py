@@ -102,7 +102,9 @@ def _read(path, experiments, quantities):
             if units["error"][0] and output.dimension is not None and dimension != output.dimension:
                 raise InputError(f"{path}: the error is in {units['error'][1]}, which is not of the kind of its value; or write the share in %")
             output.error = number * factor
-        outputs.append(output)
+        experiment = output.experiment
+        if output.place is None or experiment.abscissa_from <= output.place <= experiment.abscissa_to:
+            outputs.append(output)
     return outputs
 
 

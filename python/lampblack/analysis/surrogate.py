@@ -127,3 +127,18 @@ class Surrogate:
             return np.zeros(uses.shape[1]), np.zeros(uses.shape[1])
         alone = uses & (uses.sum(axis=1) == 1)[:, None]
         return squares @ alone / variance, squares @ uses / variance
+
+
+class Together:
+    """Many surrogates of the same parameters at once: the terms of all, each evaluated once."""
+
+    def __init__(self, surrogates):
+        self.terms, places = np.unique(np.concatenate([s.terms for s in surrogates]), axis=0, return_inverse=True)
+        self.coefficients, begin = np.zeros((len(self.terms), len(surrogates))), 0
+        for k, s in enumerate(surrogates):
+            self.coefficients[places[begin:begin + len(s.terms)], k] = s.coefficients
+            begin += len(s.terms)
+
+    def __call__(self, x):
+        """A row a point, a column a surrogate."""
+        return basis(x, self.terms) @ self.coefficients
