@@ -79,10 +79,11 @@ void reference(const Arguments& arguments) {
   } else {
     std::cout << markdownReference(deckKinds())
               << markdownPart(2, "Studies", "Files for `lampblack sweep`, without a `problem`.", studySchema())
-              << markdownPart(2, "Analyses",
-                              "Files for `lampblack fit`, `sensitivity`, `propagate`, `design` and `trade_off`, without a "
-                              "`problem`.",
-                              analysisSchema());
+              << markdownPart(
+                     2, "Analyses",
+                     "Files for `lampblack fit`, `sensitivity`, `propagate`, `design` and `trade_off`, without a "
+                     "`problem`.",
+                     analysisSchema());
   }
 }
 

@@ -26,7 +26,8 @@ std::string pythonWith(const PythonNeeds& needs) {
   throw SystemError(fmt::format(
       "{} python3 with {} and {}, and '{}' has not all of them. Install them (Debian: {}), or name another python3 in "
       "LAMPBLACK_PYTHON",
-      needs.purpose, fmt::join(needs.packages.begin(), needs.packages.begin() + static_cast<std::ptrdiff_t>(last), ", "),
+      needs.purpose,
+      fmt::join(needs.packages.begin(), needs.packages.begin() + static_cast<std::ptrdiff_t>(last), ", "),
       needs.packages[last], names.front(), needs.debian));
 }
 

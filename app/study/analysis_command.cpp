@@ -30,7 +30,8 @@ void handOver(const std::string& task, const AnalysisArguments& arguments, std::
   const Deck deck = Deck::load(arguments.file, arguments.overrides, analysisSchema());
   std::vector<std::string> words{task, arguments.file, "--resolved", deck.resolvedJson()};
   words.insert(words.end(), more.begin(), more.end());
-  replaceByPython({"an analysis needs", {"numpy", "h5py", "scipy"}, "python3-h5py python3-scipy"}, "lampblack.analysis", words);
+  replaceByPython({"an analysis needs", {"numpy", "h5py", "scipy"}, "python3-h5py python3-scipy"}, "lampblack.analysis",
+                  words);
 }
 
 void analyse(const std::string& task, const AnalysisArguments& arguments) {

@@ -36,11 +36,13 @@ void addDecksAndParameters(DeckSchema& schema) {
       .add(numberKey("parameters[].to", "Upper bound."))
       .add(choiceKey("parameters[].scale", {"linear", "log"}, "How designs and searches divide the range.")
                .byDefault("linear"))
-      .add(numberKey("parameters[].start", "The present value: of a local sensitivity and of one_at_a_time; absent: the "
-                                           "middle of the range on its scale.")
+      .add(numberKey("parameters[].start",
+                     "The present value: of a local sensitivity and of one_at_a_time; absent: the "
+                     "middle of the range on its scale.")
                .optional())
       .add(stringKey("parameters[].set",
-                     "Assignments to keys of the decks, with the parameters' names in braces for their values, or for a multiple: "
+                     "Assignments to keys of the decks, with the parameters' names in braces for their values, or for "
+                     "a multiple: "
                      "['particles.surface.growth=[{A}, 1.56, 3.8]', 'particles.sticking=[{f*0.002}]'].")
                .list()
                .byDefault("[]"))
@@ -61,9 +63,10 @@ void addDecksAndParameters(DeckSchema& schema) {
 
 void addData(DeckSchema& schema) {
   schema.section("quantities", Presence::required, "What is taken from a run, by names that measurements use.")
-      .add(stringKey("quantities.*.result",
-                     "A single number: a key of the object \"results\" of run.json, its parts joined by dots, of a list its "
-                     "place from 0: methods.mmc.moments.0.")
+      .add(stringKey(
+               "quantities.*.result",
+               "A single number: a key of the object \"results\" of run.json, its parts joined by dots, of a list its "
+               "place from 0: methods.mmc.moments.0.")
                .optional())
       .add(stringKey("quantities.*.table", "A CSV table of the run: history.csv, profile.csv.").optional())
       .add(stringKey("quantities.*.column", "Its column, without the unit.").optional())
@@ -128,7 +131,10 @@ void addMethods(DeckSchema& schema) {
       .add(numberKey("optimise.tolerance", "Relative change of objective and parameters at which a search ends.")
                .byDefault("1e-3")
                .above(0))
-      .add(numberKey("optimise.step", "Step of differences, as a share of the range.").byDefault("0.01").above(0).atMost(0.5))
+      .add(numberKey("optimise.step", "Step of differences, as a share of the range.")
+               .byDefault("0.01")
+               .above(0)
+               .atMost(0.5))
       .add(integerKey("optimise.most_points", "Points of true runs that one search may ask for.")
                .byDefault("200")
                .atLeast(2))
@@ -144,7 +150,9 @@ void addMethods(DeckSchema& schema) {
                      "Sobol indices from the surrogates' coefficients or from runs alone; elementary effects; "
                      "normalised derivatives at the start.")
                .byDefault("surrogate"))
-      .add(integerKey("sensitivity.points", "With saltelli: N, a power of two; N (d + 2) runs.").byDefault("64").atLeast(8))
+      .add(integerKey("sensitivity.points", "With saltelli: N, a power of two; N (d + 2) runs.")
+               .byDefault("64")
+               .atLeast(8))
       .add(integerKey("sensitivity.trajectories", "With morris: r trajectories, r (d + 1) runs.")
                .byDefault("10")
                .atLeast(2))

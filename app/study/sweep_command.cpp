@@ -171,8 +171,9 @@ void addSweepCommand(CLI::App& app, Command& command, int& ranks) {
       ->default_val("results/study");
   subcommand->add_flag("--force", arguments->force, "Replace an earlier study in that folder.");
   subcommand->add_flag("--check", arguments->check, "Read the study and its decks, name the runs, and run nothing.");
-  subcommand->add_flag("--side-by-side", arguments->sideBySide,
-                       "Runs side by side, each on one rank (ranks_per_run=1), on all processors, or on those of --ranks.");
+  subcommand->add_flag(
+      "--side-by-side", arguments->sideBySide,
+      "Runs side by side, each on one rank (ranks_per_run=1), on all processors, or on those of --ranks.");
   subcommand->callback([arguments, &command, &ranks] {
     if (arguments->sideBySide) arguments->overrides.emplace_back("ranks_per_run=1");
     if (arguments->sideBySide && ranks == 0 && !startedByLauncher()) ranks = processors();

@@ -194,8 +194,8 @@ std::string failureSummary(const SweepStudy& study, const std::vector<RunOutcome
   constexpr std::size_t mostNames = 3;
   std::string text;
   for (const auto& [outcome, names] : groups) {
-    const std::vector<std::string> first(names.begin(),
-                                         names.begin() + static_cast<std::ptrdiff_t>(std::min(mostNames, names.size())));
+    const std::vector<std::string> first(
+        names.begin(), names.begin() + static_cast<std::ptrdiff_t>(std::min(mostNames, names.size())));
     text += fmt::format("{} ({}", fmt::join(first, ", "), wordFor(outcome->failure));
     if (names.size() > mostNames) text += fmt::format(", and {} more", names.size() - mostNames);
     text += fmt::format("): {}\n", outcome->message);

@@ -12,8 +12,8 @@ namespace {
 
 void plot(const std::vector<std::string>& arguments) {
   if (placeOfProcess().rank != 0) return;
-  replaceByPython({"pictures need", {"numpy", "h5py", "matplotlib"}, "python3-h5py python3-matplotlib"}, "lampblack.plots",
-                  arguments);
+  replaceByPython({"pictures need", {"numpy", "h5py", "matplotlib"}, "python3-h5py python3-matplotlib"},
+                  "lampblack.plots", arguments);
 }
 
 }  // namespace

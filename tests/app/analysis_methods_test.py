@@ -85,9 +85,9 @@ def sparse_of(x):
 def check_surrogates():
     """Polynomials are found exactly; Ishigami's and the g function's indices from the coefficients; noise is no structure."""
     x = designs.sobol(64, 3, 3)
-    made = surrogate.Surrogate(x, 1 + 2 * x[:, 0] - x[:, 1] ** 3 + 4 * x[:, 0] * x[:, 2] ** 2, 4)
+    made = surrogate.Surrogate(x, 1 + 2 * x[:, 0] - x[:, 1] ** 3 + 4 * x[:, 0] * x[:, 2] ** 3, 4)
     y = np.random.default_rng(1).random((20, 3))
-    assert np.allclose(made(y), 1 + 2 * y[:, 0] - y[:, 1] ** 3 + 4 * y[:, 0] * y[:, 2] ** 2, atol=1e-10) and made.r2 > 1 - 1e-12
+    assert np.allclose(made(y), 1 + 2 * y[:, 0] - y[:, 1] ** 3 + 4 * y[:, 0] * y[:, 2] ** 3, atol=1e-10) and made.r2 > 1 - 1e-12
     values = surrogate.legendre(np.polynomial.legendre.leggauss(12)[0] / 2 + 0.5, 6)
     weights = np.polynomial.legendre.leggauss(12)[1] / 2
     assert np.allclose(values.T @ (weights[:, None] * values), np.eye(7), atol=1e-12), "they are not orthonormal"
@@ -98,6 +98,10 @@ def check_surrogates():
     assert noise.r2 < 0.3, noise.r2
     alone = surrogate.Surrogate(x, x[:, 0] * x[:, 1] + x[:, 2], 3, pairs=False)
     assert (alone.terms > 0).sum(axis=1).max() == 1
+    few_terms, f = surrogate.basis(x[:12], alone.terms[:4]), np.exp(x[:12, 0])
+    rest = surrogate.left_out(few_terms, f)[1]
+    without = np.arange(12) != 7
+    assert abs(rest[7] - (f[7] - few_terms[7] @ np.linalg.lstsq(few_terms[without], f[without], rcond=None)[0])) < 1e-10
     both = surrogate.Together([made, alone, sparse_of(x)])(y)
     assert np.allclose(both, np.stack([made(y), alone(y), sparse_of(x)(y)], axis=1), atol=1e-12)
     exact = np.array([[3 / 7, 3 / 7], [4 / 7, 4 / 7]])
@@ -187,7 +191,7 @@ def check_parameters():
         counts = np.histogram(x, bins=20, range=(0, 1))[0]
         density = np.exp(b.log_prior((np.arange(200) + 0.5) / 200)).reshape(20, 10).mean(axis=1)
         assert np.abs(counts / 20000 - density / density.sum()).max() < 0.01, kind
-    for words, more in (("above from", {"to": 0.5}), ("above 0", {"from": -1.0}), ("from 1 to 100", {"start": 200.0}), ("changes nothing", {"set": []})):
+    for words, more in (("above from", {"to": 0.5}), ("above 0", {"from": -1.0}), ("from 1 to 100", {"start": 200.0})):
         refused(InputError, words, lambda more=more: one(**more))
 
 
@@ -303,12 +307,15 @@ def check_openturns():
 
     points = designs.sobol(512, 3, 1)
     box = ot.ComposedDistribution([ot.Uniform(0, 1)] * 3)
-    chaos = ot.FunctionalChaosAlgorithm(ot.Sample(points.tolist()), ot.Sample(ishigami(points)[:, None].tolist()), box)
+    basis = ot.OrthogonalProductPolynomialFactory([ot.LegendreFactory()] * 3, ot.LinearEnumerateFunction(3))
+    least_squares = ot.LeastSquaresStrategy(ot.Sample(points.tolist()), ot.Sample(ishigami(points)[:, None].tolist()))
+    chaos = ot.FunctionalChaosAlgorithm(ot.Sample(points.tolist()), ot.Sample(ishigami(points)[:, None].tolist()), box, ot.FixedStrategy(basis, 165), least_squares)
     chaos.run()
     theirs = ot.FunctionalChaosSobolIndices(chaos.getResult())
     ours = surrogate.Surrogate(points, ishigami(points), 8).sobol_indices()
-    for i in range(3):
-        assert abs(ours[0][i] - theirs.getSobolIndex(i)) < 5e-3 and abs(ours[1][i] - theirs.getSobolTotalIndex(i)) < 5e-3, i
+    off = max(max(abs(ours[0][i] - theirs.getSobolIndex(i)), abs(ours[1][i] - theirs.getSobolTotalIndex(i))) for i in range(3))
+    print(f"OpenTURNS {ot.__version__}, chaos of degree 8 of the same points: indices differ by {off:.1e}")
+    assert off < 1e-3, off
 
 
 def main():

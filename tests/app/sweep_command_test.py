@@ -56,6 +56,14 @@ def check_good(program: running.Program, folder: pathlib.Path) -> None:
     assert all(float(row["ignition_delays_s.max_dTdt"]) < delays[1] for row in rows(out / "study.csv"))
 
 
+def check_side_by_side(program: running.Program, folder: pathlib.Path) -> None:
+    """Runs on one rank each, with how long the study will take."""
+    deck, out = study(folder, STUDY.replace("1200 K]", "1200 K, 1300 K]")), folder / "side_by_side"
+    result = program("sweep", deck, "--out", out, "--side-by-side", *(["--ranks", program.ranks] if program.ranks > 1 else []))
+    assert result.code == 0 and "of 3 runs behind, to go " in result.out, f"exit code {result.code}\n{result.err}{result.out}"
+    assert [json.loads((out / row["run"] / "run.json").read_text(encoding="utf-8"))["ranks"] for row in rows(out / "study.csv")] == [1, 1, 1]
+
+
 def check_unfinished(program: running.Program, folder: pathlib.Path) -> None:
     """A study that was stopped or killed goes on: finished runs are taken as they are, others run; of another deck they are refused."""
     deck, out = study(folder, STUDY), folder / "unfinished"
@@ -259,7 +267,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> None:
     program = running.Program(executable, list(mpiexec), int(ranks))
     alone = running.Program(executable, list(mpiexec), 1)
     tasks = [(check_good, program), (check_unfinished, program), (check_chain, program), (check_checkpoint, program), (check_failures, program),
-             (check_refused, program), (check_groups, program),
+             (check_refused, program), (check_groups, program), (check_side_by_side, program.process_of_its_own),
              (check_population, program)]
     if program.ranks > 1:
         tasks.append((check_population, alone))

@@ -81,6 +81,24 @@ TEST(StudyTable, ResultsOfARecordAreNamedByTheirPath) {
   EXPECT_TRUE(resultsOf("{\"status\": \"running\"}").empty());
 }
 
+TEST(StudyTable, FailuresOfOneMessageAreToldTogetherTheMostFirst) {
+  SweepStudy study;
+  std::vector<RunOutcome> outcomes;
+  for (const char* name : {"a", "b", "c", "d", "e", "f"}) {
+    study.runs.emplace_back().name = name;
+    outcomes.push_back({RunFailure::numerics, "too stiff", 0.0, false});
+  }
+  outcomes[0] = {};
+  outcomes[1] = {RunFailure::input, "no such gas", 0.0, false};
+  EXPECT_EQ(failureSummary(study, outcomes),
+            "c, d, e (numerics failed, and 1 more): too stiff\nb (wrong input): no such gas\n");
+  EXPECT_EQ(failureSummary(study, std::vector<RunOutcome>(6)), "");
+}
+
+TEST(StudyTable, NumbersTooSmallForNormalOnesAreShown) {
+  EXPECT_EQ(alignedText(TextTable{{"x"}, {{"1e-310"}, {"2.5"}}}), "x\n1e-310\n   2.5\n");
+}
+
 TEST(StudyTable, CsvIsReadAsItWasWritten) {
   const TextTable table{{"a", "b, c"}, {{"1", "he said \"no\""}, {"", "two\nlines"}}};
   const TextTable again = readCsv("# a comment\n" + csvText(table));

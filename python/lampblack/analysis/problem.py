@@ -33,8 +33,6 @@ class Parameter:
         self.start = given.get("start", self.value(0.5))
         if not self.low <= self.start <= self.high:
             raise InputError(f"{where}.start: a value from {self.low:g} to {self.high:g} is expected, found {self.start:g}")
-        if not self.set and not self.shift:
-            raise InputError(f"{where}: the parameter {self.name} changes nothing; expected set, with {{{self.name}}} in an assignment, or shift")
 
     def value(self, x):
         """Of a place on the scale."""
@@ -146,7 +144,7 @@ class Problem:
         used = {name for p in self.parameters for assignment in p.set for name, _ in _PLACE.findall(assignment)}
         for i, parameter in enumerate(self.parameters):
             if parameter.name not in used and not parameter.shift:
-                raise InputError(f"parameters[{i}].set: {{{parameter.name}}} stands in no assignment")
+                raise InputError(f"parameters[{i}].set: {{{parameter.name}}} stands in no assignment, so that the parameter changes nothing")
 
     @property
     def dimensions(self):
