@@ -10,6 +10,7 @@
 
 #include "app/run/problem.hpp"
 #include "app/run/warnings.hpp"
+#include "app/study/study_progress.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
@@ -17,7 +18,6 @@
 #include "io/checkpoint_folder.hpp"
 #include "io/deck_node.hpp"
 #include "io/json.hpp"
-#include "io/report.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::app {
@@ -216,32 +216,6 @@ void requireThatOneCanBegin(const SweepStudy& study) {
   if (!study.runs.empty()) throw InputError(first);  // a convergence study may stand alone
 }
 
-// How far the study is and how long it will still take, from the first group: the others have as many runs, and what
-// its own took stands for all. Runs that are there already take no time.
-class StudyProgress {
- public:
-  StudyProgress(const Group& group, std::size_t runs) : runs_(runs), begun_(MPI_Wtime()) {
-    int rank = 0;
-    MPI_Comm_rank(group.comm, &rank);
-    speaks_ = rank == 0 && group.index == 0 && runs > 1;
-    for (std::size_t i = 0; i < runs; ++i) own_ += group.groupOf(i) == 0 ? 1 : 0;
-  }
-  void ended(const RunOutcome& outcome) {
-    ++done_;
-    if (outcome.isTaken) ++taken_;
-    if (!speaks_ || outcome.isTaken || done_ == own_) return;
-    const double pace = (MPI_Wtime() - begun_) / static_cast<double>(done_ - taken_);
-    fmt::print("study: about {} of {} runs behind, to go {}\n", done_ * runs_ / own_, runs_,
-               formatDuration(pace * static_cast<double>(own_ - done_)));
-    std::fflush(stdout);
-  }
-
- private:
-  std::size_t runs_, own_ = 0, done_ = 0, taken_ = 0;
-  double begun_;
-  bool speaks_ = false;
-};
-
 }  // namespace
 
 void checkDecks(MPI_Comm comm, const SweepStudy& study) {
@@ -265,7 +239,9 @@ std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const s
   int groupRank = 0;
   MPI_Comm_rank(group.comm, &groupRank);
   std::vector<RunOutcome> outcomes(study.runs.size());
-  StudyProgress progress(group, study.runs.size());
+  std::size_t own = 0;
+  for (std::size_t i = 0; i < study.runs.size(); ++i) own += group.groupOf(i) == 0 ? 1 : 0;
+  StudyProgress progress(group.index == 0 && groupRank == 0, study.runs.size(), own);
   RunFailure ended = RunFailure::none;  // what keeps this group from going on
   for (std::size_t i = 0; i < study.runs.size(); ++i) {
     if (group.groupOf(i) != group.index) continue;
@@ -292,7 +268,7 @@ std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const s
       fmt::print("{} failed: {}\n", run.name, outcomes[i].message);
       std::fflush(stdout);
     }
-    progress.ended(outcomes[i]);
+    progress.ended(outcomes[i].isTaken);
   }
   for (std::size_t i = 0; i < outcomes.size(); ++i) share(comm, group.leaderOf(i), outcomes[i]);
   return outcomes;

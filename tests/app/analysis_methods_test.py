@@ -1,5 +1,5 @@
 """Methods of the analyses on functions whose answers are known: designs, surrogates, indices, searches, errors of parameters, samplers,
-choices of experiments, units.
+choices of experiments.
 
 Usage: analysis_methods_test.py [EXECUTABLE] [--all]
 """
@@ -14,10 +14,8 @@ np = running.package("numpy")
 running.needs("scipy")
 sys.path.insert(0, str(running.SOURCE / "python"))
 
-from lampblack import arrays  # noqa: E402
 from lampblack.analysis import choice, designs, front, indices, posterior, problem, search, surrogate  # noqa: E402
 from lampblack.errors import InputError, NumericsError  # noqa: E402
-from lampblack.units import parse_unit, si_unit  # noqa: E402
 
 ALL = "--all" in sys.argv
 ISHIGAMI = np.array([[0.313905, 0.442411, 0.0], [0.557589, 0.442411, 0.243684]])
@@ -41,30 +39,6 @@ def refused(error, words, work, *arguments):
         assert words in str(told), f"'{words}' is not in: {told}"
         return
     raise AssertionError(f"not refused: {words}")
-
-
-def check_units():
-    """As decks read them (io/units.hpp)."""
-    for text, factor, si in (("1/cm^3", 1e6, "m^-3"), ("g/cm3", 1e3, "m^-3 kg"), ("kJ/mol", 1e3, "m^2 kg s^-2 mol^-1"), ("ppm", 1e-6, "1"), ("nm", 1e-9, "m"),
-                             ("mmol", 1e-3, "mol"), ("m", 1.0, "m"), ("min", 60.0, "s"), ("1/m^3/s", 1.0, "m^-3 s^-1"), ("W/m/K", 1.0, "m kg s^-3 K^-1"),
-                             ("", 1.0, "1"), ("dam", 10.0, "m"), ("atm", 101325.0, "m^-1 kg s^-2"), ("kg m", 1.0, "m kg"), ("s^-2", 1.0, "s^-2")):
-        found, offset, dimension = parse_unit(text)
-        assert abs(found / factor - 1) < 1e-12 and offset == 0 and si_unit(dimension) == si, (text, found, si_unit(dimension))
-    assert parse_unit("degC")[1] == 273.15
-    for text in ("furlong", "m//s", "m/s K", "/m", "cmin"):
-        refused(InputError, text, parse_unit, text)
-
-
-def check_tables():
-    """Sorted by columns, and joined by them."""
-    runs = arrays.Table({"run": arrays.Array(["b", "a", "c"]), "T": arrays.Array([2.0, np.nan, 1.0], "T", "K"), "n": arrays.Array([1, 1, 0])})
-    assert list(runs.sorted_by("T")["run"]) == ["c", "b", "a"] and runs.sorted_by("run")["T"].unit == "K"
-    assert list(runs.sorted_by("T", descending=True)["run"]) == ["b", "c", "a"] and list(runs.sorted_by("n", "run")["run"]) == ["c", "a", "b"]
-    other = arrays.Table({"run": arrays.Array(["c", "b", "x"]), "T": arrays.Array([7.0, 8.0, 9.0], "T", "K"), "f": arrays.Array([0.1, 0.2, 0.3], "f", "ppm")})
-    both = runs.joined(other, "run")
-    assert list(both["run"]) == ["b", "c"] and list(both["f"]) == [0.2, 0.1] and list(both["T_2"]) == [8.0, 7.0] and both["f"].unit == "ppm"
-    assert runs.joined(other, ["run", "T"]).rows == 0
-    refused(ValueError, "two rows", runs.joined, runs, "n")
 
 
 def check_designs():
@@ -170,29 +144,6 @@ def check_morris_and_local():
     found, error = indices.local_sensitivities(k, points, slopes, 0.01 * k)
     assert np.allclose(found, [1, 1.56 * np.log(T), -1.6e4 / (R * T)], rtol=1e-11), found
     assert abs(error[0] - 0.01 * np.sqrt(2) / (0.04 * np.log(100))) < 1e-12, error
-
-
-def check_parameters():
-    """Scales, priors and their quantiles."""
-    def one(**more):
-        return problem.Parameter({"name": "a", "from": 1.0, "to": 100.0, "scale": "log", "set": ["k={a}"], "shift": [], **more}, "parameters[0]")
-
-    a = one()
-    assert abs(a.value(0.5) - 10) < 1e-12 and abs(a.place(10) - 0.5) < 1e-15 and abs(a.start - 10) < 1e-12
-    assert abs(a.slope(0.3) - (a.value(0.3 + 1e-6) - a.value(0.3 - 1e-6)) / 2e-6) < 1e-5 and a.score(0.2) is None and a.drawn(0.25) == 0.25
-    for kind, mean, deviation in (("normal", 30.0, 10.0), ("lognormal", 20.0, 0.5)):
-        b = one(prior={"type": kind, "mean": mean, "deviation": deviation})
-        values = b.value(b.drawn((np.arange(20000) + 0.5) / 20000))
-        values = np.log(values) if kind == "lognormal" else values
-        centre = np.log(mean) if kind == "lognormal" else mean
-        assert abs(np.median(values) - centre) < 0.03 * deviation and abs(values.std() / deviation - 1) < 0.03, (kind, values.mean(), values.std())
-        # The density over the scale, from counts of what is drawn.
-        x = b.drawn((np.arange(20000) + 0.5) / 20000)
-        counts = np.histogram(x, bins=20, range=(0, 1))[0]
-        density = np.exp(b.log_prior((np.arange(200) + 0.5) / 200)).reshape(20, 10).mean(axis=1)
-        assert np.abs(counts / 20000 - density / density.sum()).max() < 0.01, kind
-    for words, more in (("above from", {"to": 0.5}), ("above 0", {"from": -1.0}), ("from 1 to 100", {"start": 200.0})):
-        refused(InputError, words, lambda more=more: one(**more))
 
 
 def check_searches():

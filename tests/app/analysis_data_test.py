@@ -1,0 +1,142 @@
+"""What analyses read and compare: units, tables, parameters with their priors, measurements, the objective.
+
+Usage: analysis_data_test.py [EXECUTABLE]
+"""
+
+import pathlib
+import sys
+import tempfile
+import types
+
+import running
+
+np = running.package("numpy")
+running.needs("scipy")
+sys.path.insert(0, str(running.SOURCE / "python"))
+
+from lampblack import arrays  # noqa: E402
+from lampblack.analysis import measurements, objective, problem  # noqa: E402
+from lampblack.errors import InputError  # noqa: E402
+from lampblack.units import parse_unit, si_unit  # noqa: E402
+
+
+def refused(error, words, work, *arguments):
+    try:
+        work(*arguments)
+    except error as told:
+        assert words in str(told), f"'{words}' is not in: {told}"
+        return
+    raise AssertionError(f"not refused: {words}")
+
+
+def check_units():
+    """As decks read them (io/units.hpp)."""
+    for text, factor, si in (("1/cm^3", 1e6, "m^-3"), ("g/cm3", 1e3, "m^-3 kg"), ("kJ/mol", 1e3, "m^2 kg s^-2 mol^-1"), ("ppm", 1e-6, "1"), ("nm", 1e-9, "m"),
+                             ("mmol", 1e-3, "mol"), ("m", 1.0, "m"), ("min", 60.0, "s"), ("1/m^3/s", 1.0, "m^-3 s^-1"), ("W/m/K", 1.0, "m kg s^-3 K^-1"),
+                             ("", 1.0, "1"), ("dam", 10.0, "m"), ("atm", 101325.0, "m^-1 kg s^-2"), ("kg m", 1.0, "m kg"), ("s^-2", 1.0, "s^-2")):
+        found, offset, dimension = parse_unit(text)
+        assert abs(found / factor - 1) < 1e-12 and offset == 0 and si_unit(dimension) == si, (text, found, si_unit(dimension))
+    assert parse_unit("degC")[1] == 273.15
+    for text in ("furlong", "m//s", "m/s K", "/m", "cmin"):
+        refused(InputError, text, parse_unit, text)
+
+
+def check_tables():
+    """Sorted by columns, and joined by them."""
+    runs = arrays.Table({"run": arrays.Array(["b", "a", "c"]), "T": arrays.Array([2.0, np.nan, 1.0], "T", "K"), "n": arrays.Array([1, 1, 0])})
+    assert list(runs.sorted_by("T")["run"]) == ["c", "b", "a"] and runs.sorted_by("run")["T"].unit == "K"
+    assert list(runs.sorted_by("T", descending=True)["run"]) == ["b", "c", "a"] and list(runs.sorted_by("n", "run")["run"]) == ["c", "a", "b"]
+    other = arrays.Table({"run": arrays.Array(["c", "b", "x"]), "T": arrays.Array([7.0, 8.0, 9.0], "T", "K"), "f": arrays.Array([0.1, 0.2, 0.3], "f", "ppm")})
+    both = runs.joined(other, "run")
+    assert list(both["run"]) == ["b", "c"] and list(both["f"]) == [0.2, 0.1] and list(both["T_2"]) == [8.0, 7.0] and both["f"].unit == "ppm"
+    assert runs.joined(other, ["run", "T"]).rows == 0
+    refused(ValueError, "two rows", runs.joined, runs, "n")
+
+
+def check_parameters():
+    """Scales, priors and their quantiles."""
+    def one(**more):
+        return problem.Parameter({"name": "a", "from": 2.0, "to": 200.0, "scale": "log", "set": ["k={a}"], "shift": [], **more}, "parameters[0]")
+
+    a = one()
+    assert abs(a.value(0.5) - 20) < 1e-12 and abs(a.place(20) - 0.5) < 1e-15 and abs(a.start - 20) < 1e-12
+    assert abs(a.slope(0.3) - (a.value(0.3 + 1e-6) - a.value(0.3 - 1e-6)) / 2e-6) < 1e-5 and a.score(0.2) is None and a.drawn(0.25) == 0.25
+    for kind, mean, deviation in (("normal", 30.0, 10.0), ("lognormal", 20.0, 0.5)):
+        b = one(prior={"type": kind, "mean": mean, "deviation": deviation})
+        values = b.value(b.drawn((np.arange(20000) + 0.5) / 20000))
+        values = np.log(values) if kind == "lognormal" else values
+        centre = np.log(mean) if kind == "lognormal" else mean
+        assert abs(np.median(values) - centre) < 0.03 * deviation and abs(values.std() / deviation - 1) < 0.03, (kind, values.mean(), values.std())
+        # The density over the scale, from counts of what is drawn.
+        x = b.drawn((np.arange(20000) + 0.5) / 20000)
+        counts = np.histogram(x, bins=20, range=(0, 1))[0]
+        density = np.exp(b.log_prior((np.arange(200) + 0.5) / 200)).reshape(20, 10).mean(axis=1)
+        assert np.abs(counts / 20000 - density / density.sum()).max() < 0.01, kind
+    for words, more in (("above from", {"to": 1.5}), ("above 0", {"from": -1.0}), ("from 2 to 200", {"start": 300.0})):
+        refused(InputError, words, lambda more=more: one(**more))
+
+
+def options_of(folder):
+    """As the program resolves them."""
+    (folder / "a.yaml").write_text("problem: reactor\n", encoding="utf-8")
+    parameter = {"from": 1.0, "to": 100.0, "scale": "log", "shift": []}
+    deck = {"deck": "a.yaml", "set": ["x=1"], "weight": 1.0, "use": "fit"}
+    quantity = {"table": "t.csv", "column": "c", "along": "z", "take": "last", "transform": "none"}
+    return {"analysis": "a", "decks": [{**deck, "name": "one"}, {**deck, "name": "two", "weight": 4.0, "abscissa_from": 1e-3, "abscissa_to": 2e-3}],
+            "parameters": [{**parameter, "name": "k", "set": ["rate=[{k}, {k*0.5}]"], "prior": {"type": "lognormal", "mean": 10.0, "deviation": 0.5}},
+                           {**parameter, "name": "z", "from": -1e-3, "to": 1e-3, "scale": "linear", "set": [], "shift": ["two"]}],
+            "quantities": {"f": {**quantity, "transform": "log10"}, "T": quantity}, "measurements": {"files": ["m.csv"], "model_error": 0.0}}  # fmt: skip
+
+
+DATA = """deck,quantity,abscissa [mm],value [ppm],error [%],source
+# a remark
+one,f,2,10,20,here
+two,T,1.5,4,5,
+two,T,0.5,4,5,
+two,T,2.5,4,5,
+"""
+
+
+def check_problem(folder):
+    """Settings of a run, a shift of the abscissae, and rows of measurements in SI units within their limits."""
+    known = problem.Problem(options_of(folder), folder / "analysis.yaml")
+    x = np.array([0.5, 0.75])
+    assert known.settings(known.experiments[0], x) == ["x=1", f"rate=[{known.values(x)['k']!r}, {0.5 * known.values(x)['k']!r}]"]
+    assert abs(known.values(x)["k"] - 10) < 1e-12 and abs(known.shift(known.experiments[1], x) - 5e-4) < 1e-15 and known.shift(known.experiments[0], x) == 0
+    (folder / "m.csv").write_text(DATA, encoding="utf-8")
+    rows = measurements.read_measurements(known)
+    assert [(o.name, o.source) for o in rows] == [("one.f@0.002", "here"), ("two.T@0.0015", "")], rows
+    assert np.allclose([rows[0].value, rows[0].error, rows[1].value, rows[1].error], [1e-5, 2e-6, 4e-6, 2e-7], rtol=1e-12)
+    (folder / "m.csv").write_text("deck,quantity,value [degC],error [K]\none,T,20,2\none,T,20,5 %\n", encoding="utf-8")
+    rows = measurements.read_measurements(known)
+    assert np.allclose([rows[0].value, rows[0].error, rows[1].error], [293.15, 2, 0.05 * 293.15]) and rows[0].place is None
+    measurements.refuse_other_dimension(rows[0], "K", "value")
+    refused(InputError, "in K, and the run has it in m", measurements.refuse_other_dimension, rows[0], "m", "value")
+
+
+def check_objective(folder):
+    """Residuals by hand: errors after the logarithm, noise of the run, the model's own error, weights, priors."""
+    options = options_of(folder)
+    options["measurements"]["model_error"] = 0.03
+    known = problem.Problem(options, folder / "analysis.yaml")
+    (folder / "m.csv").write_text(DATA, encoding="utf-8")
+    target = objective.Objective(known, measurements.read_measurements(known))
+    values, errors = np.array([[2e-5, 5e-6], [np.nan, 5e-6], [-1.0, 5e-6]]), np.array([[2e-6, 3e-7]] * 3)
+    rest = target.residuals(target.transformed(values), target.transformed_errors(values, errors), np.array([[0.25, 0.5]] * 3))
+    s = np.sqrt((0.2 / np.log(10)) ** 2 + (0.1 / np.log(10)) ** 2 + 0.03**2)
+    expected = [(np.log10(1e-5) - np.log10(2e-5)) / s, 2 * (4e-6 - 5e-6) / np.sqrt(2e-7**2 + 3e-7**2 + 0.03**2), np.log(100**0.25 / 10) / 0.5]
+    assert np.allclose(rest[0], expected, rtol=1e-12), (rest[0], expected)
+    assert np.isnan(rest[1][0]) and target.phi_of_data(rest[1]) == np.inf and np.isnan(rest[2][0])
+    assert abs(target.phi_of_data(rest[0]) - expected[0] ** 2 - expected[1] ** 2) < 1e-12
+
+
+def main():
+    checks = [one for name, one in globals().items() if name.startswith("check_") and isinstance(one, types.FunctionType)]
+    with tempfile.TemporaryDirectory() as name:
+        for check in checks:
+            check(*([pathlib.Path(name)] if check.__code__.co_argcount else []))
+    print(f"{len(checks)} groups")
+
+
+if __name__ == "__main__":
+    main()
