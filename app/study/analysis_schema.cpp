@@ -28,12 +28,15 @@ void addDecksAndParameters(DeckSchema& schema) {
                      "fit: its measurements are fitted; validate: they are only compared with the fit; candidate: an "
                      "experiment that could be made, for `design`.")
                .byDefault("fit"))
-      .add(numberKey("decks[].abscissa_from", "Its measurements at smaller abscissae (SI) are left out.").optional())
-      .add(numberKey("decks[].abscissa_to", "Its measurements at larger abscissae (SI) are left out.").optional())
+      .add(numberKey("decks[].abscissa_from", "Smallest abscissa (SI) of the measurements of this deck that count.")
+               .optional())
+      .add(numberKey("decks[].abscissa_to", "Largest abscissa (SI) of the measurements of this deck that count.")
+               .optional())
       .section("parameters", Presence::required, "What is varied, between bounds.")
-      .add(stringKey("parameters[].name", "Its name in templates: letters, digits and _."))
-      .add(numberKey("parameters[].from", "Lower bound."))
-      .add(numberKey("parameters[].to", "Upper bound."))
+      .add(stringKey("parameters[].name",
+                     "Name of the parameter, as it stands in braces in assignments: letters, digits and _."))
+      .add(numberKey("parameters[].from", "Lower bound of the parameter, in the unit that its assignments give it."))
+      .add(numberKey("parameters[].to", "Upper bound of the parameter, in the same unit."))
       .add(choiceKey("parameters[].scale", {"linear", "log"}, "How designs and searches divide the range.")
                .byDefault("linear"))
       .add(numberKey("parameters[].start",
@@ -69,7 +72,7 @@ void addData(DeckSchema& schema) {
                "place from 0: methods.mmc.moments.0.")
                .optional())
       .add(stringKey("quantities.*.table", "A CSV table of the run: history.csv, profile.csv.").optional())
-      .add(stringKey("quantities.*.column", "Its column, without the unit.").optional())
+      .add(stringKey("quantities.*.column", "Name of the column of that table, without the unit.").optional())
       .add(stringKey("quantities.*.along", "The column that holds the abscissa of measurements: time, position, z.")
                .optional())
       .add(choiceKey("quantities.*.take", {"last", "maximum", "mean"},
@@ -110,10 +113,11 @@ void addMethods(DeckSchema& schema) {
                .byDefault("1")
                .atLeast(0))
       .add(choiceKey("design.criterion", {"D", "A"},
-                     "With decks of use candidate: which of them tell most, by the largest determinant (D) or the "
-                     "smallest trace of the covariance (A).")
+                     "How experiments are chosen among the decks of use candidate: by the largest determinant of the "
+                     "information "
+                     "(D) or the smallest trace of the covariance (A).")
                .byDefault("D"))
-      .add(integerKey("design.choose", "With decks of use candidate: how many experiments to choose.")
+      .add(integerKey("design.choose", "Number of experiments to choose among the decks of use candidate.")
                .byDefault("1")
                .atLeast(1))
       .add(integerKey("surrogate.order", "Highest degree of its polynomials.").byDefault("4").atLeast(1).atMost(12))
@@ -150,16 +154,18 @@ void addMethods(DeckSchema& schema) {
                      "Sobol indices from the surrogates' coefficients or from runs alone; elementary effects; "
                      "normalised derivatives at the start.")
                .byDefault("surrogate"))
-      .add(integerKey("sensitivity.points", "With saltelli: N, a power of two; N (d + 2) runs.")
+      .add(integerKey("sensitivity.points",
+                      "Number N of base points of method saltelli, a power of two; N (d + 2) runs for d parameters.")
                .byDefault("64")
                .atLeast(8))
-      .add(integerKey("sensitivity.trajectories", "With morris: r trajectories, r (d + 1) runs.")
+      .add(integerKey("sensitivity.trajectories",
+                      "Number r of trajectories of method morris; r (d + 1) runs for d parameters.")
                .byDefault("10")
                .atLeast(2))
-      .add(integerKey("sensitivity.levels", "With morris: levels of each parameter, an even number.")
+      .add(integerKey("sensitivity.levels", "Number of levels of each parameter of method morris, even.")
                .byDefault("4")
                .atLeast(2))
-      .add(numberKey("sensitivity.step", "With local: step of the differences, as a share of the range.")
+      .add(numberKey("sensitivity.step", "Step of the differences of method local, as a share of the range.")
                .byDefault("0.01")
                .above(0)
                .atMost(0.5))
@@ -170,14 +176,14 @@ void addMethods(DeckSchema& schema) {
                .byDefault("surrogate"))
       .add(integerKey("propagate.samples", "Number of samples.").byDefault("1000").atLeast(10))
       .section("trade_off.objectives", Presence::optional, "Two quantities that cannot both be had.")
-      .add(stringKey("trade_off.objectives[].quantity", "Its name."))
+      .add(stringKey("trade_off.objectives[].quantity", "Name of the quantity that is to be small or large."))
       .add(stringKey("trade_off.objectives[].deck", "Name of the deck whose run has it."))
       .add(choiceKey("trade_off.objectives[].sense", {"minimise", "maximise"}, "What is better.").byDefault("minimise"))
       .section("trade_off.constraints", Presence::optional, "What has to hold besides, in SI units.")
       .add(stringKey("trade_off.constraints[].quantity", "Name of a quantity."))
       .add(stringKey("trade_off.constraints[].deck", "Name of the deck whose run has it."))
-      .add(numberKey("trade_off.constraints[].at_least", "Lower limit.").optional())
-      .add(numberKey("trade_off.constraints[].at_most", "Upper limit.").optional())
+      .add(numberKey("trade_off.constraints[].at_least", "Lower limit of the quantity, in SI units.").optional())
+      .add(numberKey("trade_off.constraints[].at_most", "Upper limit of the quantity, in SI units.").optional())
       .add(integerKey("trade_off.points", "Points of the front.").byDefault("9").atLeast(2));
 }
 

@@ -111,6 +111,8 @@ def check_problem(folder):
     rows = measurements.read_measurements(known)
     assert np.allclose([rows[0].value, rows[0].error, rows[1].error], [293.15, 2, 0.05 * 293.15]) and rows[0].place is None
     measurements.refuse_other_dimension(rows[0], "K", "value")
+    (folder / "m.csv").write_text("deck,quantity,value [ppm],error [ppb]\none,T,20,2\n", encoding="utf-8")
+    assert abs(measurements.read_measurements(known)[0].error / 2e-9 - 1) < 1e-12
     refused(InputError, "in K, and the run has it in m", measurements.refuse_other_dimension, rows[0], "m", "value")
 
 
