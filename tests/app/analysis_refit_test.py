@@ -2,7 +2,7 @@
 temperatures, with errors of 10 %, from bounds a factor of ten to each side. Each constant lies within two errors as often as a normal
 distribution says, 95.4 % of the seeds, within three binomial errors of that.
 
-Usage: analysis_refit_test.py EXECUTABLE [--ensemble] [--surrogate] [SEEDS]
+Usage: analysis_refit_test.py EXECUTABLE [--surrogate] [SEEDS]
 """
 
 import contextlib
@@ -30,23 +30,21 @@ from lampblack.analysis.work import Work  # noqa: E402
 
 DUCT = running.SOURCE / "cases/reactor/plug_flow_soot/deck.yaml"
 TRUE = {"alpha": 0.3, "stick": 2e-3}  # how much of the surface is active, and how often molecules stick when they meet
-ENSEMBLE = ["particles.description=ensemble", "particles.number=256", "particles.repeats=4", "particles.pah=[A2]"]
 TEMPERATURES = (1700, 1800, 1900)
 PLACES = [0.01 * (i + 1) for i in range(9)] + [0.1]
 
 
-def analysis(folder, *, ensemble, surrogate):
+def analysis(folder, *, surrogate):
     """The file, with bounds about a factor of ten to each side of the truth, a share of all sites at most."""
-    decks = [{"name": f"T{T}", "deck": str(DUCT), "set": [f"inlet.temperature={T} K", "output.spacing=10 mm", "particles.condensation=false",
-                                                           *(ENSEMBLE if ensemble else [])]} for T in TEMPERATURES]
+    decks = [{"name": f"T{T}", "deck": str(DUCT), "set": [f"inlet.temperature={T} K", "output.spacing=10 mm", "particles.condensation=false"]} for T in TEMPERATURES]
     parameters = [
         {"name": "alpha", "from": 0.03, "to": 1, "scale": "log", "set": ["particles.alpha={alpha}"]},
         {"name": "stick", "from": 1.8e-4, "to": 1.6e-2, "scale": "log", "set": ["particles.sticking=[{stick}]"]}]
     quantities = {"fv": {"table": "history.csv", "column": "soot_volume_fraction", "along": "position", "transform": "log10"},
                   "number": {"table": "history.csv", "column": "soot_number_density", "along": "position", "transform": "log10"}}
     text = {"analysis": "two constants of soot", "runs": "runs", "decks": decks, "parameters": parameters, "quantities": quantities,
-            "measurements": {"files": ["data.csv"]}, "design": {"points": 32 if ensemble else 64}, "surrogate": {"order": 6},
-            "optimise": {"on": "surrogate" if surrogate else "runs", "starts": 1, "step": 0.1 if ensemble else 0.02, "tolerance": 1e-4}}
+            "measurements": {"files": ["data.csv"]}, "design": {"points": 64}, "surrogate": {"order": 6},
+            "optimise": {"on": "surrogate" if surrogate else "runs", "starts": 1, "step": 0.02, "tolerance": 1e-4}}
     path = folder / "analysis.yaml"
     path.write_text(json.dumps(text), encoding="utf-8")
     return path
@@ -72,23 +70,18 @@ def write_data(folder, problem, values, outputs, seed):
 
 
 def main():
-    ensemble, surrogate = "--ensemble" in sys.argv, "--surrogate" in sys.argv
+    surrogate = "--surrogate" in sys.argv
     seeds = int(sys.argv[-1]) if sys.argv[-1].isdigit() else 20
     kept = os.environ.get("LAMPBLACK_REFIT_FOLDER")
     with tempfile.TemporaryDirectory() as made:
         folder = pathlib.Path(kept or made)
-        path = analysis(folder, ensemble=ensemble, surrogate=surrogate)
+        path = analysis(folder, surrogate=surrogate)
         options = resolved(path)
         problem = Problem(options, path)
         outputs = [Output(e, q, place) for e in problem.experiments for q in problem.quantities.values() for place in PLACES]
         truth = np.array([[p.place(TRUE[p.name]) for p in problem.parameters]])
-        if ensemble:  # the truth is another ensemble, of more particles
-            for e in problem.experiments:
-                e.set = [*e.set, "particles.repeats=16", "particles.seed=77"]
-        values, noise = Work(problem, folder).runs.values(truth, outputs)
-        problem = Problem(options, path)
+        values, _ = Work(problem, folder).runs.values(truth, outputs)
         work = Work(problem, folder)
-        assert not ensemble or np.all(noise > 0), "an ensemble has no noise in the objective"
         rows = []
         for seed in range(seeds):
             write_data(folder, problem, values[0], outputs, seed)
