@@ -195,7 +195,7 @@ def fit(work):
     head += [f"correlation_{p.name}" for p in problem.parameters] + (["posterior_median", "posterior_low", "posterior_high"] if wants_posterior else [])
     alike = posterior.correlation(matrix)
     for i, p in enumerate(problem.parameters):
-        ends = p.value(best[i] + np.array([-1.96, 1.96]) * deviations[i])
+        ends = p.value(np.clip(best[i] + np.array([-1.96, 1.96]) * deviations[i], 0, 1))
         rows.append([p.name, float(p.value(best[i])), float(p.slope(best[i]) * deviations[i]), *ends, "yes" if min(best[i], 1 - best[i]) < AT_BOUND else "no",
                      *alike[i]])
         if wants_posterior:

@@ -79,6 +79,7 @@ def plot_places(analysis, pictures):
         axes.plot(place[here], best, color="C3", label="best")
         if _is_log(measured, best, start):
             axes.set_yscale("log")
+        axes.locator_params(axis="x", nbins=5)
         axes.set_xlabel("abscissa, SI unit")
         axes.set_ylabel(quantity)
         axes.set_title(deck, fontsize=9, loc="left")
