@@ -3,6 +3,7 @@
 import csv
 import datetime
 import json
+import re
 import subprocess
 
 import numpy as np
@@ -60,14 +61,29 @@ def aligned(head, rows):
     return "\n".join("  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip() for line in lines)
 
 
+_PLAIN = re.compile(r"[A-Za-z0-9_.+-][\w.+/^%-]*( [\w.+/^%-]+)*$")
+
+
+def _scalar(text):
+    return text if _PLAIN.match(text) else json.dumps(text, ensure_ascii=False)
+
+
+def _flow(value):
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{_scalar(key)}: {_flow(inner)}" for key, inner in value.items()) + "}"
+    if isinstance(value, list):
+        return "[" + ", ".join(map(_flow, value)) + "]"
+    return _scalar(str(value))
+
+
 def _yaml(value, indent=""):
     """Maps in lines, everything else in YAML's short form."""
     for key, inner in value.items():
         if isinstance(inner, dict) and inner:
-            yield f"{indent}{key if key.replace('_', '').isalnum() and not key[0].isdigit() else json.dumps(key)}:"
+            yield f"{indent}{_scalar(key)}:"
             yield from _yaml(inner, indent + "  ")
         else:
-            yield f"{indent}{key if key.replace('_', '').isalnum() and not key[0].isdigit() else json.dumps(key)}: {json.dumps(inner, ensure_ascii=False)}"
+            yield f"{indent}{_scalar(key)}: {_flow(inner)}"
 
 
 def _with_whole_paths(value, folder):
@@ -81,15 +97,31 @@ def _with_whole_paths(value, folder):
     return value
 
 
+def _assign(deck, key, value):
+    """As --set does: a.b[0].c."""
+    parts = [int(part) if part.isdigit() else part for part in key.replace("[", ".").replace("]", "").split(".")]
+    for part in parts[:-1]:
+        deck = deck[part] if isinstance(part, int) else deck.setdefault(part, {})
+    deck[parts[-1]] = value
+
+
 def write_best(folder, problem, runs, x, words):
-    """best/<deck>.yaml: all keys as the best run had them, with the constants in their places; each runs as it is."""
+    """best/<deck>.yaml: the decks with the constants in their places; each runs as it is. Needs the package yaml."""
+    try:
+        import yaml
+    except ImportError:
+        print(f"{folder}: the decks with the constants are not written, as python3-yaml is not installed", flush=True)
+        return
     folder.mkdir(exist_ok=True)
     for experiment in problem.experiments:
-        place = runs.place(experiment, x)
-        if place is None:
+        if runs.place(experiment, x) is None:
             continue
-        deck = json.loads((place / "run.json").read_text(encoding="utf-8"))["deck"]
+        # Every scalar stays the text that it is: NO is a species.
+        deck = yaml.load(experiment.deck.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+        for setting in problem.settings(experiment, x):
+            key, _, value = setting.partition("=")
+            _assign(deck, key, yaml.load(value, Loader=yaml.BaseLoader))
         head = [f"{experiment.deck.name} of {experiment.deck.parent} with constants of the analysis '{problem.name}'", *words,
-                "Set: " + "; ".join(problem.settings(experiment, x)), "All keys, in SI units."]
+                "Set: " + "; ".join(problem.settings(experiment, x))]
         lines = [f"# {line}" for line in head] + list(_yaml(_with_whole_paths(deck, experiment.deck.parent)))
         (folder / f"{experiment.name}.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
