@@ -27,6 +27,10 @@ class BlockSystem {
   void clear();
   // Of an owned cell, column-major, to be added to.
   [[nodiscard]] double* block(int cell) { return &blocks_[static_cast<std::size_t>(cell) * fields_ * fields_]; }
+  // The inverse of that block, of the last solve.
+  [[nodiscard]] const double* inverse(int cell) const {
+    return &inverse_[static_cast<std::size_t>(cell) * fields_ * fields_];
+  }
   // Adds to a field the diffusion through any face by a conductance, beyond a boundary to a fixed value, and upwind
   // convection by a flow from low to high or outwards of what differs from the cell's own value; gas that comes through
   // a boundary has a fixed value.

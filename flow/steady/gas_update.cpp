@@ -18,7 +18,7 @@ constexpr double kelvins = 1000.0;
 // What an iteration changes in a cell at most.
 constexpr double mostRise = 100.0;      // K
 constexpr double mostOfFraction = 0.1;  // mass fraction of any species
-constexpr double gasReduction = 0.1;    // of the linear system's residual
+constexpr double gasReduction = 0.01;   // of the linear system's residual
 constexpr int mostGasIterations = 60;
 // The same where the load is an unknown, which is a ratio of what two systems give.
 constexpr double loadedReduction = 0.02;
@@ -118,11 +118,16 @@ void GasUpdate::assemble(const State& state, const FlowResidual& residual, std::
 }
 
 // Where gas ignites, what there is little of grows by itself. In a pseudo-time that is longer than that takes the
-// linear system knows of another place without change, behind that of no gas at all.
+// linear system knows of another place without change, behind that of no gas at all. Whether it grows so tells the sign
+// of its equation's diagonal once all else in the cell has answered to it, one over that of the inverse: what falls
+// only because others do is no such thing, and traces of it would hold back cells for nothing.
 bool GasUpdate::isMisled(const State& state, std::size_t c, double share) const {
   const double *Y = &state.Y[c * n_], *change = &change_[c * (n_ + 1)], *left = &right_[c * (n_ + 1)];
+  const double* inverse = system_.inverse(static_cast<int>(c));
   for (std::size_t k = 0; k < n_; ++k)
-    if (left[k] > 0.0 && change[k] < 0.0 && Y[k] + share * change[k] < 2.0 * leastOfSpecies) return true;
+    if (left[k] > 0.0 && change[k] < 0.0 && Y[k] + share * change[k] < 2.0 * leastOfSpecies &&
+        !(inverse[k * (n_ + 2)] > 0.0))
+      return true;
   return false;
 }
 
