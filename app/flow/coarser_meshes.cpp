@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "app/flow/flow_loop.hpp"
 #include "app/flow/initial_flow.hpp"
@@ -24,12 +25,14 @@ FlowCase caseFrom(const Deck& deck, const std::filesystem::path& earlier) {
 
 }  // namespace
 
-FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, const RunFolder& folder, const RunInfo& info) {
+FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, const RunFolder& folder,
+                               const RunInfo& info) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
   std::filesystem::path earlier;
+  std::vector<TimeControl::Search::Coarser> told;
   FlowCase flowCase;
-  for (int level = deck.integer<int>("time.steady.coarser_meshes"); level >= 1; --level) {
+  for (int level = meshes; level >= 1; --level) {
     collectively(comm, [&] {
       const std::string refinement =
           fmt::format("mesh.refinement={}", deck.number("mesh.refinement") * std::ldexp(1.0, -level));
@@ -44,17 +47,24 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, const RunFolder&
     const RunFolder own = RunFolder::prepare(folder.path() / fmt::format("coarser_{}", level), true, comm);
     FlowLoop loop(comm, flowCase);
     if (rank == 0) fmt::print("a coarser mesh first, of {} cells\n", loop.cells());
-    earlier = own.results();
+    std::filesystem::path found = own.results();
     try {
       loop.run(own, info);
-      loop.tellSearch();
     } catch (const NumericsError& error) {
-      earlier = own.partialResults();
-      if (!std::filesystem::exists(earlier)) throw;
-      printWarnings({fmt::format("the coarser mesh: {}; its last state is the start of the finer one", error.what())});
+      found = own.partialResults();
+      if (!std::filesystem::exists(found)) throw;
+      printWarnings({fmt::format("the coarser mesh: {}", error.what())});
     }
+    loop.tellSearch();
+    told.push_back(loop.searchAsCoarser());
+    // A flame that does not stand on a coarse mesh may stand on the next; gas that is cold would stay so.
+    if (told.back().isStart)
+      earlier = found;
+    else
+      printWarnings({"nothing burns on the coarser mesh; the next one does not start from it"});
   }
   collectively(comm, [&] { flowCase = caseFrom(deck, earlier); });
+  flowCase.time.search->coarser = told;
   return flowCase;
 }
 

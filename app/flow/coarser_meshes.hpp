@@ -10,9 +10,11 @@
 
 namespace lampblack::app {
 
-// The deck's case with the steady state on meshes of 1/2, 1/4, ... of the cells in each direction
-// (time.steady.coarser_meshes of them) as its start; their runs are folders of `folder`, coarser_1 the finest. What a
-// search leaves that is given up is a start too. Collective; NumericsError where a run fails for another reason.
-FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, const RunFolder& folder, const RunInfo& info);
+// The deck's case with the steady state on meshes of 1/2, 1/4, ... of the cells in each direction (`meshes` of them) as
+// its start; their runs are folders of `folder`, coarser_1 the finest. What a search leaves that is given up is a start
+// too, but cold gas is none where the mechanism has reactions. Collective; NumericsError where a run fails for another
+// reason.
+FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, const RunFolder& folder,
+                               const RunInfo& info);
 
 }  // namespace lampblack::app

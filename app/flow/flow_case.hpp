@@ -69,7 +69,15 @@ struct TimeControl {
     std::optional<double> time = {};  // s, as SteadyControl::time
     bool triesWithoutFlame = false;   // whether there are attempts in gas that cannot burn
     int coarserMeshes = 0;            // on which the state is sought first
-    bool lights = true;               // what was lit by the start and does not burn once the steps in time are over
+    // What came of the search on each of these, the coarsest first; of the mesh itself nothing.
+    struct Coarser {
+      std::int64_t cells = 0;
+      bool isSteady = false, isStart = false;  // whether it was found, and whether the next mesh starts from there
+      int steps = 0, iterations = 0;
+      double processorTime = 0.0;  // s, of all ranks
+    };
+    std::vector<Coarser> coarser = {};
+    bool lights = true;  // what was lit by the start and does not burn once the steps in time are over
     std::optional<Stability> stability = {};
     std::optional<Branch> branch = {};
     std::optional<SteadyRounds::Options> rounds = {};  // of gas and ensembles in turn

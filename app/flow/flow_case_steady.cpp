@@ -19,6 +19,8 @@ constexpr const char* steadySection = "time.steady";
 constexpr const char* stabilitySection = "time.steady.stability";
 constexpr int usualAttempts = 2;
 const std::vector<std::string> populations{"ensemble", "trees"};
+// Of a mesh on which a flame is sought from the deck's own start; on finer ones from that of a coarser.
+constexpr int mostCellsAlone = 3000, mostCoarserMeshes = 5;
 
 // A vessel without an outlet keeps its mass, and what its gas is heated by its pressure. The equations of a state know
 // neither: where any of it can change, no residual tells of it.
@@ -59,6 +61,26 @@ std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCa
                        deck.choice("time.steady.norm") == "rms" ? Steadiness::Norm::Rms : Steadiness::Norm::Maximum};
 }
 
+namespace {
+
+// Meshes of plane boxes can be made coarser.
+bool isPlaneBox(const FlowCase& flowCase) {
+  return !flowCase.meshFile && !flowCase.mesh.map && flowCase.dimension == 2;
+}
+
+int usualCoarserMeshes(const Deck& deck, const FlowCase& flowCase) {
+  if (!isPlaneBox(flowCase) || flowCase.mechanism->numReactions() == 0 || deck.has("initial.flow") ||
+      deck.has("turbulence"))
+    return 0;
+  const auto& vertices = flowCase.mesh.vertices;
+  auto cells = static_cast<int>((vertices[0].size() - 1) * (vertices[1].size() - 1));
+  int coarser = 0;
+  for (; cells > mostCellsAlone; cells /= 4) ++coarser;
+  return std::min(coarser, mostCoarserMeshes);
+}
+
+}  // namespace
+
 TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   for (const BoundaryCondition& boundary : flowCase.boundaries)
     if (boundary.varies.inTime)
@@ -73,6 +95,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   TimeControl::Search search;
   search.attempts = usualAttempts;
   search.reacts = flowCase.mechanism->numReactions() > 0;
+  search.coarserMeshes = usualCoarserMeshes(deck, flowCase);
   if (!deck.has(steadySection)) return search;
   search.residual = deck.number("time.steady.residual");
   search.iterations = deck.integer<int>("time.steady.iterations");
@@ -82,8 +105,8 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
     search.triesWithoutFlame = true;
   }
   search.steps = deck.optionalInteger<int>("time.steady.steps").value_or(0);
-  search.coarserMeshes = deck.integer<int>("time.steady.coarser_meshes");
-  if (search.coarserMeshes > 0 && (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2))
+  if (const auto coarser = deck.optionalInteger<int>("time.steady.coarser_meshes")) search.coarserMeshes = *coarser;
+  if (search.coarserMeshes > 0 && !isPlaneBox(flowCase))
     throw deck.error("time.steady.coarser_meshes",
                      "coarser meshes are made of plane boxes only, without a floor or a ceiling of their own; leave "
                      "this out");
@@ -180,10 +203,13 @@ void addSteadyKeys(DeckSchema& schema) {
       .add(integerKey("time.steady.coarser_meshes",
                       "Number of coarser meshes, each of half the cells of the next in every direction (of a plane "
                       "box), on which the steady state is sought first: what is found on one is the start on the next. "
-                      "A run that is stopped on one of them begins anew.")
-               .byDefault("0")
+                      "A run that is stopped on one of them begins anew. Absent: as many as lead to no more than " +
+                          fmt::format("{}", mostCellsAlone) +
+                          " cells where the mechanism has reactions and the start is the deck's own, none with "
+                          "turbulence.")
+               .optional()
                .atLeast(0)
-               .atMost(5));
+               .atMost(mostCoarserMeshes));
   const SteadyRounds::Options rounds;
   search
       .add(integerKey(

@@ -77,6 +77,8 @@ class FlowLoop {
   void report(double wallTime, RunRecord& record);
   // The part of the report that is of the search. Collective.
   void tellSearch();
+  // What came of the search, of a run on a coarser mesh; after tellSearch(). Collective.
+  [[nodiscard]] TimeControl::Search::Coarser searchAsCoarser() const;
 
  private:
   // Output of a run in progress.

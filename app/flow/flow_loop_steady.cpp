@@ -262,14 +262,20 @@ std::vector<std::string> FlowLoop::searchLines() const {
   const std::string first = search_->firstResidual() > 0.0
                                 ? fmt::format("{:.2e} before the first iteration, ", search_->firstResidual())
                                 : "";
-  std::vector<std::string> lines{
-      fmt::format(
-          "{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
-          "largest residual {}{:.2e} now",
-          isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
-          search_->iterations(), takenBack, back, lit, first, largestNorm()),
-      fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s", processorTime_[InTime],
-                  processorTime_[Iterating])};
+  std::vector<std::string> lines;
+  for (const TimeControl::Search::Coarser& coarser : case_.time.search->coarser)
+    lines.push_back(
+        fmt::format("on a coarser mesh of {} cells {} after {} steps in time and {} iterations, {:.3g} s of "
+                    "processor{}",
+                    coarser.cells, coarser.isSteady ? "steady" : "not steady", coarser.steps, coarser.iterations,
+                    coarser.processorTime, coarser.isStart ? "" : "; nothing burns there: no start of the next"));
+  lines.push_back(fmt::format(
+      "{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
+      "largest residual {}{:.2e} now",
+      isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
+      search_->iterations(), takenBack, back, lit, first, largestNorm()));
+  lines.push_back(fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s",
+                              processorTime_[InTime], processorTime_[Iterating]));
   for (const std::string& line : roundLines()) lines.push_back(line);
   return lines;
 }
@@ -279,6 +285,11 @@ void FlowLoop::tellSearch() {
                 comm_);
   if (domain_->mesh.rank != 0) return;
   for (const std::string& line : searchLines()) fmt::print("{}\n", line);
+}
+
+TimeControl::Search::Coarser FlowLoop::searchAsCoarser() const {
+  return {cells(),          search_->isSteady(),   burnsOrCannot(),
+          search_->steps(), search_->iterations(), processorTime_[InTime] + processorTime_[Iterating]};
 }
 
 void FlowLoop::addSearch(JsonWriter& json) const {
@@ -294,6 +305,15 @@ void FlowLoop::addSearch(JsonWriter& json) const {
   json.field("processor_time_of_steps_s", processorTime_[InTime]);
   json.field("processor_time_of_iterations_s", processorTime_[Iterating]);
   if (rounds_) addRounds(json);
+  json.key("coarser_meshes").beginArray();
+  for (const TimeControl::Search::Coarser& coarser : case_.time.search->coarser) {
+    json.beginObject().field("cells", coarser.cells).field("steady", coarser.isSteady);
+    json.field("is_start", coarser.isStart);
+    json.field("steps_in_time", static_cast<std::int64_t>(coarser.steps));
+    json.field("iterations", static_cast<std::int64_t>(coarser.iterations));
+    json.field("processor_time_s", coarser.processorTime).endObject();
+  }
+  json.endArray();
   json.endObject();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/flow/coarser_meshes.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "flow/models/radiation.hpp"
@@ -397,6 +398,41 @@ TEST(SteadyMode, TakesWhatHasASteadyState) {
   EXPECT_EQ(usual.time.search->residual, SteadySearch::Options().residual);
   EXPECT_EQ(usual.time.search->iterations, SteadySearch::Options().iterations);
   EXPECT_EQ(readFlowCase(channel({"time.end=1 s"})).time.search, std::nullopt);
+}
+
+TEST(SteadyMode, SeeksFlamesOfManyCellsOnCoarserMeshesFirst) {
+  const auto meshes = [](const Deck& deck) { return readFlowCase(deck).time.search->coarserMeshes; };
+  const std::string few = "mesh.refinement=6.8", more = "mesh.refinement=7", many = "mesh.refinement=14";
+  EXPECT_EQ(meshes(hydrogenBesideAir({})), 0);
+  EXPECT_EQ(meshes(hydrogenBesideAir({few})), 0);  // 54 by 54
+  EXPECT_EQ(meshes(hydrogenBesideAir({more})), 1);
+  EXPECT_EQ(meshes(hydrogenBesideAir({many})), 2);
+  EXPECT_EQ(meshes(hydrogenBesideAir({many, "time.steady.coarser_meshes=0"})), 0);
+  EXPECT_EQ(meshes(hydrogenBesideAir({"time.steady.coarser_meshes=3"})), 3);
+  EXPECT_EQ(meshes(channel({steady, "mesh.refinement=20"})), 0);
+}
+
+TEST(SteadyMode, StartsFromACoarserMeshThatBurns) {
+  const test::SharedScratchFolder scratch;
+  const auto seek = [&](const char* name, const std::vector<std::string>& settings) {
+    const RunFolder folder = RunFolder::prepare(scratch.path() / name, false, MPI_COMM_WORLD);
+    const Deck deck = hydrogenBesideAir(settings);
+    return caseFromCoarserMeshes(MPI_COMM_WORLD, deck, 1, folder, {"test", "none", deck.resolved(), "now"});
+  };
+  const FlowCase burns = seek("burns", {"mesh.refinement=2"});
+  ASSERT_EQ(burns.time.search->coarser.size(), 1U);
+  const TimeControl::Search::Coarser& coarser = burns.time.search->coarser.front();
+  EXPECT_EQ(coarser.cells, 64);
+  EXPECT_TRUE(coarser.isSteady);
+  EXPECT_TRUE(coarser.isStart);
+  EXPECT_GT(coarser.iterations, 0);
+  const Hdf5Reader results(scratch.path() / "burns/coarser_1/results.h5");
+  const Vector3 firstCentre{5e-4, 7.5e-4, 0.0};
+  EXPECT_NEAR(burns.initialFields.gas.temperature(firstCentre, 0.0), test::lastOf(results, "temperature")[0], 1e-6);
+  // Nothing burns there: the start is the deck's own.
+  const FlowCase dark = seek("dark", {"mesh.refinement=2", "time.steady.light=false"});
+  EXPECT_FALSE(dark.time.search->coarser.front().isStart);
+  EXPECT_NEAR(dark.initialFields.gas.temperature({5e-4, 0.011, 0.0}, 0.0), 1198.0, 1e-6);
 }
 
 }  // namespace
