@@ -42,8 +42,8 @@ void printEvent(const Event& event) {
 void replay(const std::string& path, bool print) {
   auto [mechanism, failed] = readReplay(path);
   ConstantPressureReactor reactor(mechanism, failed.options);
-  ConstantPressureReactor::Cell cell{failed.temperature, failed.pressure,  failed.Y,
-                                     failed.source,      failed.firstStep, failed.heating};
+  ConstantPressureReactor::Cell cell{failed.temperature, failed.pressure, failed.Y,         failed.source,
+                                     failed.firstStep,   failed.heating,  failed.rateFactor};
   if (print)
     fmt::print("{}: {} species, T = {:.6g} K, p = {:.6g} Pa, dt = {:.6g} s\nit failed with: {}\n", mechanism.fileName(),
                mechanism.numSpecies(), failed.temperature, failed.pressure, failed.duration, failed.reason);

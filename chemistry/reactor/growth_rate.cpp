@@ -58,10 +58,10 @@ double GrowthRate::growth(double h) {
   return factor > hundredfold && std::isfinite(factor) ? (1.0 - 1.0 / last) / h : 0.0;
 }
 
-double GrowthRate::of(double temperature, double pressure, std::span<const double> Y, double dt) {
+double GrowthRate::of(double temperature, double pressure, std::span<const double> Y, double dt, double rateFactor) {
   std::ranges::copy(Y, state_.begin());
   state_[n_ - 1] = temperature;
-  system_.setConditions(pressure, {});
+  system_.setConditions(pressure, {}, 0.0, rateFactor);
   if (!system_.jacobian(state_.data(), rates_.data(), jacobian_.data(), n_)) return 0.0;
   for (const double share : stepShares)
     if (const double rate = growth(share * dt); rate > 0.0) return rate;

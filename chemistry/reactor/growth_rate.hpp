@@ -17,10 +17,12 @@ class GrowthRate {
   // `leastFraction`: of ReactorSystem.
   GrowthRate(const Mechanism& mechanism, double leastFraction);
 
-  // 1/s, of a gas (T in K, p in Pa); zero where nothing grows with a rate of 0.9/dt or more (dt in s), or where the
-  // state is none. By power iteration with (1 - h J)^-1 for some h, from the rates themselves, which have no part in
-  // what reactions conserve; for rates up to 60/dt, beyond which it may be missed.
-  [[nodiscard]] double of(double temperature, double pressure, std::span<const double> Y, double dt);
+  // 1/s, of a gas (T in K, p in Pa) whose reactions go with a factor on their rates; zero where nothing grows with a
+  // rate of 0.9/dt or more (dt in s), or where the state is none. By power iteration with (1 - h J)^-1 for some h, from
+  // the rates themselves, which have no part in what reactions conserve; for rates up to 60/dt, beyond which it may be
+  // missed.
+  [[nodiscard]] double of(double temperature, double pressure, std::span<const double> Y, double dt,
+                          double rateFactor = 1);
 
  private:
   [[nodiscard]] double growth(double h);

@@ -42,7 +42,7 @@ void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) cons
   double sum = 0;
   for (const double value : cell.Y) sum += value;
   for (const double value : cell.source) good = good && std::isfinite(value);
-  good = good && std::isfinite(cell.heating);
+  good = good && std::isfinite(cell.heating) && std::isfinite(cell.rateFactor) && cell.rateFactor >= 0;
   good = good && std::abs(sum - 1) < 1e-3;
   if (!good) throwFailure(cell, dt);
 }
@@ -50,7 +50,7 @@ void ConstantPressureReactor::Impl::checkInput(const Cell& cell, double dt) cons
 // Explicit trapezoid where the chemistry is negligible at both ends; see Options::negligibleChange.
 bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) {
   if (options.negligibleChange <= 0) return false;
-  system.setConditions(cell.pressure, cell.source, cell.heating);
+  system.setConditions(cell.pressure, cell.source, cell.heating, cell.rateFactor);
   ++result.rhsEvaluations;
   result.work += counted.rates;
   if (!system.chemicalRates(start.data(), chemical.data())) return false;
@@ -81,7 +81,7 @@ bool ConstantPressureReactor::Impl::skip(Cell& cell, double dt, Result& result) 
 // Leaves the end in `predicted`.
 bool ConstantPressureReactor::Impl::integrate(const Cell& cell, double dt, const Attempt& attempt, Event event,
                                               const Observer& observer, Result& result) {
-  system.setConditions(cell.pressure, cell.source, cell.heating);
+  system.setConditions(cell.pressure, cell.source, cell.heating, cell.rateFactor);
   std::copy(start.begin(), start.end(), predicted.begin());
   const ReactorIntegrator::Interval part{dt / attempt.parts, attempt.firstStep,
                                          options.relativeTolerance * attempt.toleranceFactor,
@@ -177,7 +177,7 @@ void ConstantPressureReactor::Impl::throwFailure(const Cell& cell, double dt) co
   throw ReactorFailure(
       message,
       {cell.temperature, cell.pressure, dt, cell.initialStep, std::vector<double>(cell.Y.begin(), cell.Y.end()),
-       std::vector<double>(cell.source.begin(), cell.source.end()), cell.heating, options, why},
+       std::vector<double>(cell.source.begin(), cell.source.end()), cell.heating, cell.rateFactor, options, why},
       place);
 }
 

@@ -43,7 +43,8 @@ class ConstantPressureReactor {
     // s, first step of the Rosenbrock method, 0 for the whole interval; returns what it asks of the next interval.
     // CVODE is used at once where it is too short.
     double initialStep = 0;
-    double heating = 0;  // W/kg, at which the mixture's enthalpy rises
+    double heating = 0;     // W/kg, at which the mixture's enthalpy rises
+    double rateFactor = 1;  // on the rates of the reactions
   };
 
   struct Result {

@@ -37,6 +37,7 @@ void ConstantPressureReactor::Impl::beginAll(std::span<const Cell> cells, double
     std::ranges::copy(start, reactor.state.begin());
     reactor.pressure = cells[i].pressure;
     reactor.heating = cells[i].heating;
+    reactor.rateFactor = cells[i].rateFactor;
     reactor.duration = dt;
     reactor.firstStep = cells[i].initialStep;
     reactor.source = cells[i].source;

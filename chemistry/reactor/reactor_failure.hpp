@@ -20,6 +20,7 @@ struct FailedCell {
   std::vector<double> Y;       // mass fractions
   std::vector<double> source;  // 1/s; empty where there was none
   double heating = 0;          // W/kg
+  double rateFactor = 1;       // Cell::rateFactor
   ConstantPressureReactor::Options options;
   std::string reason;
 };

@@ -76,6 +76,7 @@ bool ReactorSystem::jacobian(const double* y, double* f, double* J, std::size_t 
   } catch (const NumericsError& error) {
     return refuse(error.what());
   }
+  for (const std::span<double> part : {std::span(wdot_), std::span(byT_), std::span(J, ld * n)}) scaleRates(part);
   std::fill(excess_.begin(), excess_.end(), 0.0);
   for (std::size_t j = 0; j < n; ++j) {
     const double c = c_[j];
@@ -132,6 +133,7 @@ bool ReactorSystem::sparseJacobian(const double* y, double* f, SparseJacobian& J
   } catch (const NumericsError& error) {
     return refuse(error.what());
   }
+  for (auto* part : {&wdot_, &byT_, &common_, &J.species}) scaleRates(*part);
   double total = 0;
   for (const double c : c_) total += c;
   for (std::size_t k = 0; k < n; ++k) excess_[k] = common_[k] * total;

@@ -68,6 +68,7 @@ void ReactorLanes::Impl::load(const Reactor& reactor, std::size_t lane) const {
   const ReactorLanesWork& work = tables.work();
   work.pressure[lane] = reactor.pressure;
   work.heating[lane] = reactor.heating;
+  work.rateFactor[lane] = reactor.rateFactor;
   put(reactor.state, work.y, lane);
   if (!reactor.source.empty()) return put(reactor.source, work.source, lane);
   for (std::size_t k = 0; k < tables.view().numSpecies; ++k) work.source[k * kLanes + lane] = 0;

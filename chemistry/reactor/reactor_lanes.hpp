@@ -22,6 +22,7 @@ class ReactorLanes {
  public:
   struct Reactor {
     double pressure = 0, heating = 0;    // Pa, W/kg
+    double rateFactor = 1;               // on the rates of the reactions
     double duration = 0, firstStep = 0;  // s; 0: the whole duration
     std::span<double> state;             // (Y, T): in, and out where it has arrived
     std::span<const double> source;      // 1/s; may be empty

@@ -25,8 +25,9 @@ class ReactorLanesKernel {
   static void chemicalRates(const ReactorLanesView& view, const ReactorLanesWork& work) {
     const Gas gas = prepare(view, work, work.y, view.minTemperature, view.maxTemperature);
     const double* wdot = Rates::block(view.rates, work.rates, gas.T, gas.total);
+    const D factor = V::load(work.rateFactor);
     for (std::size_t k = 0; k < view.numSpecies; ++k)
-      V::store(work.f + k * lanes, V::load(wdot + k * lanes) * (V::all(view.weights[k]) * gas.volume));
+      V::store(work.f + k * lanes, factor * V::load(wdot + k * lanes) * (V::all(view.weights[k]) * gas.volume));
     V::store(work.isGood, gas.isGood);
   }
 
@@ -110,11 +111,12 @@ class ReactorLanesKernel {
   // dy/dt from the production rates and the rows of thermo(); one over the heat capacity.
   static D finishRates(const ReactorLanesView& view, const ReactorLanesWork& work, const Gas& gas, const double* y,
                        const double* wdot, double* f) {
+    const D factor = V::load(work.rateFactor);
     D heat = D{}, capacity = D{};
     for (std::size_t k = 0; k < view.numSpecies; ++k) {
       const std::size_t row = k * lanes;
-      const D rate =
-          V::multiplyAdd(V::load(wdot + row), V::all(view.weights[k]) * gas.volume, V::load(work.source + row));
+      const D rate = V::multiplyAdd(factor * V::load(wdot + row), V::all(view.weights[k]) * gas.volume,
+                                    V::load(work.source + row));
       const D R = V::all(view.gasConstants[k]);
       heat = V::multiplyAdd(R * V::load(work.jacobian.h + row), rate, heat);
       capacity = V::multiplyAdd(R * V::load(work.jacobian.cp + row), V::load(y + row), capacity);
@@ -142,25 +144,25 @@ class ReactorLanesKernel {
     Jacobian::template thermo<true>(view.rates, jacobian, gas.T);
     Jacobian::run(view.rates, view.jacobian, work.rates, jacobian, gas.T, gas.total);
     const D inverse = finishRates(view, work, gas, work.y, jacobian.wdot, work.start);
-    const D slopeT = V::load(work.start + n * lanes), inverseT = V::all(1.0) / gas.T;
+    const D factor = V::load(work.rateFactor), slopeT = V::load(work.start + n * lanes), inverseT = V::all(1.0) / gas.T;
     for (std::size_t j = 0; j < n; ++j) V::store(values + view.temperatureRow[j], D{});
     D byT = D{}, byProduct = D{};
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t row = k * lanes;
       const D R = V::all(view.gasConstants[k]), W = V::all(view.weights[k]);
-      const D energy = R * V::load(jacobian.h + row), common = V::load(jacobian.common + row);
+      const D energy = R * V::load(jacobian.h + row), common = factor * V::load(jacobian.common + row);
       D response = common * gas.total;  // sum over j of d wdot_k/d c_j c_j
       for (std::uint32_t e = view.entriesBegin[k]; e < view.entriesBegin[k + 1]; ++e) {
         const LaneEntry& entry = view.entries[e];
-        const D derivative = V::load(values + entry.place);
+        const D derivative = factor * V::load(values + entry.place);
         response = V::multiplyAdd(derivative, V::load(work.rates.c + entry.column), response);
         const D value = derivative * V::all(entry.weightRatio);
         V::store(values + entry.place, value);
         double* heat = values + view.temperatureRow[entry.column / lanes];
         V::store(heat, V::multiplyAdd(energy, value, V::load(heat)));
       }
-      const D difference = V::load(jacobian.wdot + row) - response;
-      const D column = W * gas.volume * V::multiplyAdd(difference, inverseT, V::load(jacobian.byT + row));
+      const D difference = factor * V::load(jacobian.wdot + row) - response;
+      const D column = W * gas.volume * V::multiplyAdd(difference, inverseT, factor * V::load(jacobian.byT + row));
       const D product = W * V::multiplyAdd(difference, gas.meanWeight * gas.volume, common);
       V::store(values + view.temperatureColumn[k], column);
       V::store(values + view.product[k], product);

@@ -43,6 +43,7 @@ ReactorLanesTables::ReactorLanesTables(const Mechanism& mechanism, double leastF
              {&work_.lu.x, lu_.size()},
              {&work_.pressure, 1},
              {&work_.heating, 1},
+             {&work_.rateFactor, 1},
              {&work_.stepSize, 1},
              {&work_.y, n_ + 1},
              {&work_.source, n_},

@@ -42,7 +42,7 @@ struct ReactorLanesWork {
   BatchJacobianWork jacobian;
   LaneLuWork lu;
   // In: a row each, the unknowns, the source of the species.
-  double *pressure, *heating, *stepSize;
+  double *pressure, *heating, *rateFactor, *stepSize;
   double *y, *source;
   double* diagonal;  // of the matrix; its last row is set by the kernel, the others are one
   // Out: the state after the step, the sum of the squares of its errors over their tolerances, one where the step could

@@ -50,7 +50,7 @@ class Reader {
   explicit Reader(const std::string& path) : yaml_(path), file_(yaml_, load(path), "a replay file") {
     file_.allowOnly({"mechanism", "temperature", "pressure", "duration", "first_step", "relative_tolerance",
                      "absolute_tolerance", "max_steps", "rosenbrock_steps", "negligible_change", "mass_fractions",
-                     "source", "heating", "reason"});
+                     "source", "heating", "rate_factor", "reason"});
   }
 
   std::string mechanism() const {
@@ -75,6 +75,7 @@ class Reader {
     cell.Y = bySpecies(mechanism, "mass_fractions");
     if (file_.has("source")) cell.source = bySpecies(mechanism, "source");
     cell.heating = value("heating");
+    cell.rateFactor = value("rate_factor");
     cell.reason = yaml_.text(file_.at("reason"), "reason");
     return cell;
   }
@@ -146,6 +147,7 @@ std::string replayText(const Mechanism& mechanism, const FailedCell& cell) {
   text += "mass_fractions:\n" + bySpecies(mechanism, cell.Y);
   if (!cell.source.empty()) text += "source:  # 1/s\n" + bySpecies(mechanism, cell.source);
   add("heating", exact(cell.heating), "  # W/kg");
+  add("rate_factor", exact(cell.rateFactor), "  # on the rates of the reactions");
   add("reason", quoted(cell.reason), "");
   return text;
 }

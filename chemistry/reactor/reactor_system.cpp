@@ -50,11 +50,12 @@ void ReactorSystem::setConditions(const Conditions& conditions) {
   conditions_.source = conditions_.carriedSource = conditions_.loss = {};
 }
 
-void ReactorSystem::setConditions(double pressure, std::span<const double> source, double heating) {
+void ReactorSystem::setConditions(double pressure, std::span<const double> source, double heating, double rateFactor) {
   Conditions conditions;
   conditions.value = pressure;
   conditions.source = source;
   conditions.heating = heating;
+  conditions.rateFactor = rateFactor;
   setConditions(conditions);
 }
 
@@ -103,6 +104,11 @@ void ReactorSystem::speciesEnergies(double T) {
   }
 }
 
+void ReactorSystem::scaleRates(std::span<double> values) const {
+  if (conditions_.rateFactor == 1) return;
+  for (double& value : values) value *= conditions_.rateFactor;
+}
+
 bool ReactorSystem::chemicalRates(const double* y, double* f) {
   if (!prepare(y)) return false;
   const std::size_t n = weights_.size();
@@ -114,6 +120,7 @@ bool ReactorSystem::chemicalRates(const double* y, double* f) {
   } catch (const NumericsError& error) {
     return refuse(error.what());
   }
+  scaleRates(wdot_);
   const double volume = 1.0 / density_;
   for (std::size_t k = 0; k < n; ++k) f[k] = wdot_[k] * weights_[k] * volume;
   return true;

@@ -1,10 +1,11 @@
 // The equations of a well-mixed reactor of constant pressure or constant density in the unknowns (Y_1..Y_N, T), and
 // their analytic Jacobian:
-//   dY_k/dt = W_k wdot_k / rho + S_k - r Y_k - l_k Y_k
+//   dY_k/dt = f W_k wdot_k / rho + S_k - r Y_k - l_k Y_k
 //   constant pressure:  cp dT/dt = q - r h - sum_k h_k dY_k/dt      (dh/dt = q - r h)
 //   constant density:   cv dT/dt = q - r u - sum_k u_k dY_k/dt      (du/dt = q - r u)
-// with a constant source S_k, a removal rate r and a heating q, all zero in a closed adiabatic reactor. Where the
-// temperature is given, dT/dt is a given number instead, and species may be lost at rates l_k of their own.
+// with a constant source S_k, a removal rate r and a heating q, all zero in a closed adiabatic reactor, and a factor f
+// on the reactions, one where nothing holds them up. Where the temperature is given, dT/dt is a given number instead,
+// and species may be lost at rates l_k of their own.
 //
 // A source alone (r = q = 0) brings the enthalpy (energy) that keeps the mixture's. A perfectly stirred reactor of
 // residence time tau and constant pressure has S = Y_in/tau, r = 1/tau, q = h_in/tau; losses to a wall lower q.
@@ -46,6 +47,7 @@ class ReactorSystem {
     double removal = 0;         // r, 1/s
     double heating = 0;         // q, J/kg/s
     bool reacts = true;         // false: without wdot
+    double rateFactor = 1;      // f
   };
 
   // J in parts, the sum of a sparse matrix with a full last row and column and of a product of two vectors:
@@ -72,8 +74,8 @@ class ReactorSystem {
 
   // What holds for the evaluations that follow.
   void setConditions(const Conditions& conditions);
-  // Constant pressure (Pa), energy conserved, a source (1/s, may be empty) and a heating (J/kg/s).
-  void setConditions(double pressure, std::span<const double> source, double heating = 0);
+  // Constant pressure (Pa), energy conserved, a source (1/s, may be empty), a heating (J/kg/s), a factor on the rates.
+  void setConditions(double pressure, std::span<const double> source, double heating = 0, double rateFactor = 1);
 
   // f = dy/dt. False, with f undefined, if the state is outside the range of the data
   // (Thermo::minTemperature..maxTemperature) or not finite.
@@ -95,6 +97,8 @@ class ReactorSystem {
 
  private:
   bool prepare(const double* y);
+  // The factor on what reactions make, or its derivatives.
+  void scaleRates(std::span<double> values) const;
   bool refuse(std::string reason);
   bool accept(const double* f);
   // Of a carried phase: f of its amounts, and what it adds to those of the species; the same of the Jacobian, after

@@ -22,7 +22,7 @@ using Event = ConstantPressureReactor::Event;
 
 // A mixture that burns, and a reactor that may take too few steps for it.
 FailedCell failedCell() {
-  FailedCell cell{1300.0 + 1.0 / 3, constants::oneAtmosphere, 1e-3, 0.0, {}, {}, 2e5, {1e-6, 1e-12, 3, 0.0, 2},
+  FailedCell cell{1300.0 + 1.0 / 3, constants::oneAtmosphere, 1e-3, 0.0, {}, {}, 2e5, 0.7, {1e-6, 1e-12, 3, 0.0, 2},
                   "a \"test\""};
   cell.Y.resize(hydrogen().numSpecies());
   Thermo(hydrogen()).moleToMass(parseComposition(hydrogen(), "H2: 2, O2: 1, N2: 3.76"), cell.Y);
@@ -33,7 +33,8 @@ FailedCell failedCell() {
 }
 
 ConstantPressureReactor::Cell cellOf(FailedCell& failed) {
-  return {failed.temperature, failed.pressure, failed.Y, failed.source, failed.firstStep, failed.heating};
+  return {failed.temperature, failed.pressure, failed.Y,         failed.source,
+          failed.firstStep,   failed.heating,  failed.rateFactor};
 }
 
 class ReactorReplay : public ::testing::Test {
@@ -66,6 +67,8 @@ TEST_F(ReactorReplay, KeepsEveryBit) {
   EXPECT_EQ(read.firstStep, cell.firstStep);
   EXPECT_EQ(read.Y, cell.Y);
   EXPECT_EQ(read.source, cell.source);
+  EXPECT_EQ(read.heating, cell.heating);
+  EXPECT_EQ(read.rateFactor, cell.rateFactor);
   EXPECT_EQ(read.options.relativeTolerance, cell.options.relativeTolerance);
   EXPECT_EQ(read.options.absoluteTolerance, cell.options.absoluteTolerance);
   EXPECT_EQ(read.options.maxSteps, cell.options.maxSteps);
