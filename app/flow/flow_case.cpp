@@ -323,6 +323,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readGravity(deck, flowCase);
   readDrivingForce(deck, flowCase);
   readTurbulence(deck, flowCase);
+  readCombustion(deck, flowCase);
   flowCase.radiation = readRadiation(deck, *flowCase.mechanism);
   readTime(deck, flowCase);
   flowCase.chemistry.reactor.relativeTolerance = deck.number("chemistry.relative_tolerance");

@@ -18,6 +18,7 @@
 #include "flow/mixing_layer.hpp"
 #include "flow/models/carried_model.hpp"
 #include "flow/models/carried_operator.hpp"
+#include "flow/models/combustion/combustion_operator.hpp"
 #include "flow/models/radiation.hpp"
 #include "flow/models/reaction_operator.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
@@ -183,9 +184,11 @@ struct FlowCase {
   TransportOperator::Options flow;
   RadiationOptions radiation;
   TurbulenceCase turbulence;
-  std::shared_ptr<CarriedModel> carried;               // null: nothing
-  std::optional<EnsembleOperator::Options> ensembles;  // in the cells; then nothing else is carried
-  std::shared_ptr<CellParticles> cellParticles;        // of the ensembles
+  std::optional<CombustionOperator::Options> combustion;  // nothing: the reactions of the mean gas
+  bool mixesParticles = false;                            // whether their rates go by the reacting share
+  std::shared_ptr<CarriedModel> carried;                  // null: nothing
+  std::optional<EnsembleOperator::Options> ensembles;     // in the cells; then nothing else is carried
+  std::shared_ptr<CellParticles> cellParticles;           // of the ensembles
   // Packed, of the ensemble that a cell of this permanent number begins with; empty: nothing is there.
   std::function<std::vector<double>(std::uint64_t cell)> startPopulation;
   CarriedOperator::Options carriedOptions;

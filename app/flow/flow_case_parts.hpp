@@ -57,6 +57,10 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase);
 // Which model, and nothing else: before the start, which may have its variables.
 void readTurbulenceModel(const Deck& deck, FlowCase& flowCase);
 
+// The section combustion: its keys, and reading it when turbulence and particles have been read.
+void addCombustionKeys(DeckSchema& schema);
+void readCombustion(const Deck& deck, FlowCase& flowCase);
+
 // The section output: its keys, and reading it when mesh, boundaries and times have been read.
 void addOutputKeys(DeckSchema& schema);
 void readOutput(const Deck& deck, FlowCase& flowCase);

@@ -6,6 +6,8 @@
 
 #include "core/errors.hpp"
 #include "core/wall_distance.hpp"
+#include "flow/models/combustion/fine_structure_cells.hpp"
+#include "flow/models/constant_pressure_cells.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -37,6 +39,13 @@ std::vector<ScalarBlock> carriedBlocks(const FlowCase& flowCase) {
   if (const TurbulenceCase& of = flowCase.turbulence; of.model)
     blocks.push_back(TurbulenceOperator::blockOf(*of.model, flowCase.boundaries, of.boundaries));
   return blocks;
+}
+
+std::unique_ptr<CellReactor> cellReactor(const FlowCase& flowCase, const Thermo& thermo,
+                                         const ReactionOperator::Options& options) {
+  if (flowCase.combustion && flowCase.combustion->model == CombustionOperator::Model::EddyDissipation)
+    return std::make_unique<FineStructureCells>(*flowCase.mechanism, thermo, options.reactor);
+  return std::make_unique<ConstantPressureCells>(*flowCase.mechanism, thermo, options.reactor);
 }
 
 // The block of the particles; none without.
@@ -77,7 +86,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
               flowCase.turbulence.numbers},
       state(mesh, flowCase.mechanism->numSpecies(), carriedBlocks(flowCase), flowCase.swirls),
       flow(context, state, flowCase.flow),
-      chemistry(context, chemistryOptions),
+      chemistry(context, chemistryOptions, cellReactor(flowCase, thermo, chemistryOptions)),
       undershoots(context, flowCase.flow.sweeps),
       stepControl(context, {flowCase.flow.sweeps, flowCase.time.tolerance, flowCase.time.temperatureChange,
                             flowCase.time.leastMassFraction}) {
@@ -115,6 +124,13 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
     turbulence = std::make_unique<TurbulenceOperator>(context, state, flowCase.turbulence.model, flow.properties(),
                                                       flowCase.turbulence.mostRatio);
     operators.push_back(turbulence.get());
+  }
+  if (flowCase.combustion) {
+    combustion = std::make_unique<CombustionOperator>(context, *flowCase.combustion, *turbulence,
+                                                      [this](const State& of) { return chemistry.heatReleases(of); });
+    chemistry.mixBy(*combustion);
+    if (flowCase.mixesParticles) carried->mixBy(*combustion);
+    operators.push_back(combustion.get());
   }
   operators.push_back(&undershoots);
   operators.push_back(&stepControl);

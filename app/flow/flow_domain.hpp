@@ -12,6 +12,7 @@
 #include "coupling/ensemble_operator.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/carried_operator.hpp"
+#include "flow/models/combustion/combustion_operator.hpp"
 #include "flow/models/deposition_operator.hpp"
 #include "flow/models/radiation_operator.hpp"
 #include "flow/models/turbulence/turbulence_operator.hpp"
@@ -57,6 +58,7 @@ struct FlowDomain {
   std::unique_ptr<DepositionOperator> deposition;  // null without particles and without walls
   std::unique_ptr<RadiationOperator> radiation;
   std::unique_ptr<TurbulenceOperator> turbulence;
+  std::unique_ptr<CombustionOperator> combustion;
   std::vector<Operator*> operators;  // of these, each advances over the step, one after the other
   std::unique_ptr<Budget> budget;
 };

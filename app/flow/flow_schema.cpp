@@ -319,6 +319,7 @@ DeckSchema flowSchema() {
   addGravity(schema);
   addRadiationKeys(schema);
   flowcase::addTurbulenceKeys(schema);
+  flowcase::addCombustionKeys(schema);
   flowcase::addTimeKeys(schema);
   addConvectionAndOutput(schema);
   schema

@@ -79,12 +79,21 @@ double CarriedOperator::viscosityOf(const State& state, int cell) const {
   return context_.transport.mixture(state.temperature[cell], state.thermodynamicPressure, X, D).viscosity;
 }
 
-CarriedOperator::Result CarriedOperator::solve(double dt, const SharedCellWork::Task<CarrierGas>& task,
+// Rates that go by a share of themselves are those of as much less time, in which all else is as much faster.
+CarriedOperator::Result CarriedOperator::solve(double dt, const SharedCellWork::Task<Input>& task,
                                                RowWriter rows) const {
+  const auto& [gas, share] = task.input;
   const std::span<double> values = rows.add(values_.size());
+  const std::span<const double> supply = task.rows.subspan(values.size());
   std::ranges::copy(task.rows.first(values.size()), values.begin());
-  const ParticleAdvance done = model_.advance(task.input, dt, values.first(scalars_), values.subspan(scalars_),
-                                              task.rows.subspan(values.size()));
+  if (!(share > 0.0)) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] += dt * supply[i];
+    return {costOfAdvance(scalars_, 0.0), 0.0};
+  }
+  std::vector<double> faster(supply.begin(), supply.end());
+  for (double& rate : faster) rate /= share;
+  const ParticleAdvance done =
+      model_.advance(gas, share * dt, values.first(scalars_), values.subspan(scalars_), faster);
   const double steps = done.steps + done.rejected;
   return {costOfAdvance(scalars_, steps), steps};
 }
@@ -97,7 +106,8 @@ void CarriedOperator::valuesOf(const State& state, int cell, std::span<double> v
     values[scalars_ + i] = state.density[cell] * state.Y[at(cell, state.species) + species[i]] / W[species[i]];
 }
 
-CarrierGas CarriedOperator::pack(const State& state, const BusyCell& busy, double dt, RowWriter rows) const {
+CarriedOperator::Input CarriedOperator::pack(const State& state, const BusyCell& busy, double dt,
+                                             RowWriter rows) const {
   const int c = busy.cell;
   const std::size_t n = values_.size();
   const std::span<double> values = rows.add(2 * n), start = values.first(n), supply = values.last(n);
@@ -108,8 +118,9 @@ CarrierGas CarriedOperator::pack(const State& state, const BusyCell& busy, doubl
     supply[i] = (start[i] - before) / dt - rate_[at(c, n) + i];
     start[i] = before;
   }
-  return {state.temperature[c], state.thermodynamicPressure, state.density[c], busy.viscosity,
-          busy.meanMolecularWeight};
+  return {
+      {state.temperature[c], state.thermodynamicPressure, state.density[c], busy.viscosity, busy.meanMolecularWeight},
+      mixing_ ? mixing_->present()[c].reactingShare : 1.0};
 }
 
 void CarriedOperator::take(State& state, int cell, double dt, std::span<const double> after) {
@@ -165,7 +176,7 @@ void CarriedOperator::advance(State& state, double time, double dt) {
       items.push_back({c, work_.expectedCost(c)});
     }
   });
-  SharedCellWork::Work<CarrierGas, Result> work;
+  SharedCellWork::Work<Input, Result> work;
   work.pack = [&](std::size_t i, RowWriter rows) { return pack(state, busy[i], dt, rows); };
   work.advance = [&](const auto& tasks, const auto& results, const auto& rows) {
     results.front() = solve(dt, tasks.front(), rows.front());
@@ -202,11 +213,15 @@ void CarriedOperator::addRates(const State& state, State::Balance& rates) {
   const std::vector<std::size_t>& species = model_.exchanged();
   const auto W = context_.mechanism.molecularWeights();
   std::vector<double> amounts(scalars_), exchanged(species.size());
+  const std::span<const CellMixing> mixing = mixing_ ? mixing_->of(state) : std::span<const CellMixing>();
   for (int c = 0; c < context_.mesh.owned; ++c) {
     ParticleGas gas = gasOfCell(context_, state, c, 0.0, species, concentrations_);
     if (model_.idle(gas, densities(state, c))) continue;
     gas = gasOfCell(context_, state, c, viscosityOf(state, c), species, concentrations_);
     model_.sources(gas, densities(state, c), amounts, exchanged);
+    if (mixing_)
+      for (const std::span<double> made : {std::span(amounts), std::span(exchanged)})
+        for (double& rate : made) rate *= mixing[c].reactingShare;
     model_.enthalpies(state.temperature[c], enthalpy_, slope_);
     for (std::size_t s = 0; s < scalars_; ++s) {
       rates.carried[at(c, state.scalars.size()) + first_ + s] += amounts[s];
@@ -223,12 +238,15 @@ void CarriedOperator::addSlopes(const State& state, const Slopes& slopes) {
   const std::size_t columns = values_.size() + 1, width = static_cast<std::size_t>(state.species) + 1,
                     all = state.scalars.size();
   std::vector<double> J(values_.size() * columns);
+  const std::span<const CellMixing> mixing = mixing_ ? mixing_->of(state) : std::span<const CellMixing>();
   inEachCell(context_.mesh, [&](int c) {
     ParticleGas gas = gasOfCell(context_, state, c, 0.0, species, concentrations_);
     if (model_.idle(gas, densities(state, c))) return;
     gas = gasOfCell(context_, state, c, viscosityOf(state, c), species, concentrations_);
     std::ranges::fill(J, 0.0);
     model_.jacobian(gas, densities(state, c), {J, columns});
+    if (mixing_)
+      for (double& slope : J) slope *= mixing[c].reactingShare;
     for (std::size_t s = 0; s < scalars_ && !slopes.carried.empty(); ++s)
       for (std::size_t by = 0; by < scalars_; ++by)
         slopes.carried[at(c, all * all) + (first_ + by) * all + first_ + s] += J[s * columns + by];

@@ -18,6 +18,7 @@
 #include "core/particle_gas.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/carried_model.hpp"
+#include "flow/models/combustion/cell_mixing.hpp"
 #include "flow/models/gas_exchange.hpp"
 #include "flow/models/shared_cell_work.hpp"
 #include "flow/operator.hpp"
@@ -65,12 +66,21 @@ class CarriedOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
 
+  // How the cells are mixed: the particles change, and take from the gas, at the reacting share of their rates. Without
+  // one by all of them. It has to live as long.
+  void mixBy(MixingModel& mixing) { mixing_ = &mixing; }
+
   // Of a cell, in the order of the model.
   [[nodiscard]] std::span<double> densities(State& state, int cell) const;
   [[nodiscard]] std::span<const double> densities(const State& state, int cell) const;
 
  private:
   [[nodiscard]] double viscosityOf(const State& state, int cell) const;
+  // The gas, and the share of the rates that goes.
+  struct Input {
+    CarrierGas gas;
+    double share = 1.0;
+  };
   struct BusyCell {
     int cell;
     double viscosity, meanMolecularWeight;
@@ -82,8 +92,8 @@ class CarriedOperator : public Operator {
     double cost, steps;
   };
   // Behind the gas, and behind the result: values as valuesOf(); behind the gas's also what else brings them.
-  [[nodiscard]] CarrierGas pack(const State& state, const BusyCell& busy, double dt, RowWriter rows) const;
-  [[nodiscard]] Result solve(double dt, const SharedCellWork::Task<CarrierGas>& task, RowWriter rows) const;
+  [[nodiscard]] Input pack(const State& state, const BusyCell& busy, double dt, RowWriter rows) const;
+  [[nodiscard]] Result solve(double dt, const SharedCellWork::Task<Input>& task, RowWriter rows) const;
   // Gives the cell the values `after` in place of those it has.
   void take(State& state, int cell, double dt, std::span<const double> after);
   void rest(State& state, int cell, double dt);
@@ -91,6 +101,7 @@ class CarriedOperator : public Operator {
 
   const FlowContext& context_;
   CarriedModel& model_;
+  MixingModel* mixing_ = nullptr;
   std::size_t first_, scalars_;
   Options options_;
   SharedCellWork work_;

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/modules.hpp"
+#include "flow/models/combustion/cell_mixing.hpp"
 
 namespace lampblack::flow {
 
@@ -19,6 +20,7 @@ class CellReactor {
     double temperature = 0.0;  // K, near that of the enthalpy
     double pressure = 0.0;     // Pa
     double firstStep = 0.0;    // s, Result::firstStep of the interval before; zero where there was none
+    CellMixing mixing = {};
   };
   struct Result {
     double temperature = 0.0;   // K
@@ -35,11 +37,20 @@ class CellReactor {
     std::span<const double> source;  // 1/s, of them, by all but the reactions
   };
 
+  // Rates of the reactions in gas as it is, 1/s of the mass fractions, and where they are wanted their derivatives:
+  // column-major, a row a species and one of no meaning; by mass fractions at constant pressure, then by temperature.
+  struct Rates {
+    std::span<double> values;
+    std::span<double> slopes;  // empty: not wanted
+  };
+
   virtual ~CellReactor() = default;
   // How many cells are best advanced at once.
   [[nodiscard]] virtual std::size_t cellsTogether() const = 0;
   // Over dt (s), a result a cell; that of a cell depends on this cell alone, to the last bit. FailureInGroup.
   virtual void advance(std::span<const Cell> cells, double dt, std::span<Result> results) = 0;
+  // Of a gas by its temperature, pressure and mixing. NumericsError where there are none.
+  virtual void rates(const Gas& gas, std::span<const double> Y, const Rates& rates) = 0;
 
  protected:
   CellReactor() = default;

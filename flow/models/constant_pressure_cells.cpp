@@ -1,5 +1,8 @@
 #include "flow/models/constant_pressure_cells.hpp"
 
+#include <algorithm>
+
+#include "core/errors.hpp"
 #include "core/group_failure.hpp"
 
 namespace lampblack::flow {
@@ -11,7 +14,7 @@ void ConstantPressureCells::advance(std::span<const Cell> cells, double dt, std:
     const auto& [gas, Y, source] = cells[i];
     try {
       const double temperature = thermo_.temperatureFromEnthalpy(gas.enthalpy, Y, gas.temperature);
-      cells_[i] = {temperature, gas.pressure, Y, source, gas.firstStep, gas.heating};
+      cells_[i] = {temperature, gas.pressure, Y, source, gas.firstStep, gas.heating, gas.mixing.reactingShare};
     } catch (const NumericsError& error) {
       throw FailureInGroup(error.what(), i);
     }
@@ -25,6 +28,16 @@ void ConstantPressureCells::advance(std::span<const Cell> cells, double dt, std:
                   static_cast<double>(found_[i].retries),
                   found_[i].skipped ? 1.0 : 0.0,
                   found_[i].handedOver ? 1.0 : 0.0};
+}
+
+void ConstantPressureCells::rates(const Gas& gas, std::span<const double> Y, const Rates& rates) {
+  std::ranges::copy(Y, y_.begin());
+  y_.back() = gas.temperature;
+  system_.setConditions(gas.pressure, {}, 0.0, gas.mixing.reactingShare);
+  const bool isThere = rates.slopes.empty() ? system_.chemicalRates(y_.data(), f_.data())
+                                            : system_.jacobian(y_.data(), f_.data(), rates.slopes.data(), y_.size());
+  if (!isThere) throw NumericsError("the reactions have no rates: " + system_.refusal());
+  std::copy_n(f_.begin(), rates.values.size(), rates.values.begin());
 }
 
 }  // namespace lampblack::flow

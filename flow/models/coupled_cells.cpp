@@ -29,7 +29,8 @@ void CoupledCells::gather(MPI_Comm comm) {
   for (const Cell& cell : cells_) {
     own.push_back(cell.number);
     cells.insert(cells.end(), {static_cast<double>(cell.number), cell.mass, cell.pressure, cell.temperature,
-                               cell.enthalpy, cell.referenceTemperature, cell.referenceEnthalpy, cell.heat});
+                               cell.enthalpy, cell.referenceTemperature, cell.referenceEnthalpy, cell.heat,
+                               cell.mixing.reactingShare, cell.mixing.fineTime});
     for (const auto* row : {&cell.Y, &cell.reference, &cell.brought, &cell.reacts})
       cells.insert(cells.end(), row->begin(), row->end());
   }
@@ -46,7 +47,7 @@ void CoupledCells::gather(MPI_Comm comm) {
     Cell& cell = cells_.emplace_back();
     cell.number = static_cast<std::int64_t>(values.next());
     for (double* value : {&cell.mass, &cell.pressure, &cell.temperature, &cell.enthalpy, &cell.referenceTemperature,
-                          &cell.referenceEnthalpy, &cell.heat})
+                          &cell.referenceEnthalpy, &cell.heat, &cell.mixing.reactingShare, &cell.mixing.fineTime})
       *value = values.next();
     for (auto* row : {&cell.Y, &cell.reference, &cell.brought, &cell.reacts}) *row = nextRow(values, n_);
   }
@@ -139,7 +140,7 @@ void CoupledCells::advanceReactions(MPI_Comm comm, const React& react, double pa
   for (const std::size_t i : own_) {
     Cell& cell = cells_[i];
     reacting.push_back({cell.number,
-                        {cell.enthalpy, heating_[i], cell.temperature, cell.pressure, firstStep_[i]},
+                        {cell.enthalpy, heating_[i], cell.temperature, cell.pressure, firstStep_[i], cell.mixing},
                         cost_[i],
                         cell.Y,
                         source_[i]});

@@ -39,6 +39,7 @@ class CoupledCells {
     std::vector<double> reference;  // mass fractions
     std::vector<double> brought;    // kg/s, the same of species
     std::vector<double> reacts;     // kg/s, guess of what the reactions make
+    CellMixing mixing = {};
   };
   // Between two cells by their numbers, or a cell and the outside (high: none).
   struct Link {

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "chemistry/reactor/reactor_failure.hpp"
-#include "chemistry/reactor/reactor_system.hpp"
 #include "core/errors.hpp"
 #include "core/group_failure.hpp"
 #include "flow/cell_errors.hpp"
@@ -171,8 +170,8 @@ bool ReactionOperator::findOutrunning(const State& state, double dt) {
     if (grows == 0.0 && change < moreChange * askedChange_[cell] && ++askedAgo_[cell] < stepsUnasked) continue;
     askedChange_[cell] = change;
     askedAgo_[cell] = 0.0;
-    const double growth =
-        growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n}, dt);
+    const double growth = growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n},
+                                         dt, mixingOf(cell).reactingShare);
     double& fastest = fastest_[cell];
     const double speed = largest / state.density[cell];
     grows = std::max(growth, speed < slowShare * fastest ? forgotten * grows : grows);
@@ -244,8 +243,9 @@ void ReactionOperator::advance(State& state, double time, double dt) {
     const double density = densityOfRate(state, cell);
     const double* rate = &state.balance.reactions[cell * n];
     for (std::size_t k = 0; k < n; ++k) source[k] = (Y[k] - before[k]) / dt - rate[k] / density;
-    return {startEnthalpy[cell], (state.enthalpy[cell] - startEnthalpy[cell]) / dt, state.temperature[cell], pressure,
-            initialStep_[cell]};
+    return {startEnthalpy[cell],     (state.enthalpy[cell] - startEnthalpy[cell]) / dt,
+            state.temperature[cell], pressure,
+            initialStep_[cell],      mixingOf(cell)};
   };
   work.unpack = [&](std::size_t item, const CellReactor::Result& result, std::span<const double> Y) {
     take(state, cellOf(item), dt, result, Y);
@@ -262,40 +262,43 @@ double heatRelease(const FlowContext& context, const State& state, std::size_t c
   return heat;
 }
 
-// As the reactor evaluates them.
-void ReactionOperator::addRates(const State& state, State::Balance& rates) {
-  const auto n = static_cast<std::size_t>(state.species);
-  ReactorSystem system(context_.mechanism, nullptr, options_.reactor.leastFraction());
-  system.setConditions(state.thermodynamicPressure, {});
-  std::vector<double> y(n + 1), rate(n + 1);
+// The rates of each cell as the reactor has them, with their slopes where those are wanted: take(cell, rates, slopes).
+template <typename Take>
+void ReactionOperator::eachRates(const State& state, bool wantsSlopes, const Take& take) {
+  const auto n = static_cast<std::size_t>(state.species), width = n + 1;
+  const std::span<const CellMixing> mixing = mixing_ ? mixing_->of(state) : std::span<const CellMixing>();
+  std::vector<double> rate(n), J(wantsSlopes ? width * width : 0);
   inEachCell(context_.mesh, [&](int c) {
     const auto cell = static_cast<std::size_t>(c);
-    std::copy_n(&state.Y[cell * n], n, y.begin());
-    y[n] = state.temperature[cell];
-    if (!system.chemicalRates(y.data(), rate.data()))
-      throw NumericsError("the reactions have no rates: " + system.refusal());
+    CellReactor::Gas gas;
+    gas.temperature = state.temperature[cell];
+    gas.pressure = state.thermodynamicPressure;
+    if (mixing_) gas.mixing = mixing[cell];
+    reactor_->rates(gas, {&state.Y[cell * n], n}, {rate, J});
+    take(cell, rate, J);
+  });
+}
+
+void ReactionOperator::addRates(const State& state, State::Balance& rates) {
+  const auto n = static_cast<std::size_t>(state.species);
+  eachRates(state, false, [&](std::size_t cell, std::span<const double> rate, std::span<const double>) {
     for (std::size_t k = 0; k < n; ++k) rates.reactions[cell * n + k] += state.density[cell] * rate[k];
   });
 }
 
 void ReactionOperator::addSlopes(const State& state, const Slopes& slopes) {
   const auto n = static_cast<std::size_t>(state.species), width = n + 1;
-  ReactorSystem system(context_.mechanism, nullptr, options_.reactor.leastFraction());
-  system.setConditions(state.thermodynamicPressure, {});
   const auto weights = context_.mechanism.molecularWeights();
-  std::vector<double> y(width), rate(width), J(width * width);
-  inEachCell(context_.mesh, [&](int c) {
-    const auto cell = static_cast<std::size_t>(c);
-    std::copy_n(&state.Y[cell * n], n, y.begin());
-    y[n] = state.temperature[cell];
-    if (!system.jacobian(y.data(), rate.data(), J.data(), width))
-      throw NumericsError("the reactions have no rates: " + system.refusal());
+  std::vector<double> ofShare(width, 0.0);
+  eachRates(state, true, [&](std::size_t cell, std::span<const double> rate, std::span<const double> J) {
     // Per kg there, and per m^3 here: the density changes as well.
     const double rho = state.density[cell], W = context_.thermo.meanMolecularWeight({&state.Y[cell * n], n});
     double* to = &slopes.gas[cell * width * width];
+    if (mixing_) mixing_->slopesOfShare(state, static_cast<int>(cell), ofShare);
     for (std::size_t j = 0; j < width; ++j) {
-      const double lighter = j < n ? W / weights[j] : 1.0 / y[n];
-      for (std::size_t k = 0; k < n; ++k) to[j * width + k] += rho * (J[j * width + k] - rate[k] * lighter);
+      const double lighter = j < n ? W / weights[j] : 1.0 / state.temperature[cell];
+      for (std::size_t k = 0; k < n; ++k)
+        to[j * width + k] += rho * (J[j * width + k] + rate[k] * (ofShare[j] - lighter));
     }
   });
 }
@@ -382,11 +385,15 @@ std::vector<double> ReactionOperator::historyValues(const State&) {
           d.limitedCells, d.coupledCells,    growthInStep_,  mean.before,       mean.after};
 }
 
-void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
+std::vector<double> ReactionOperator::heatReleases(const State& state) const {
   std::vector<double> heat = heatRelease_, enthalpies(static_cast<std::size_t>(state.species));
   for (std::size_t cell = 0; cell < heat.size(); ++cell)
     if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(context_, state, cell, enthalpies);
-  sink({"heat_release", "W/m^3", "heat set free by the gas reactions, mean of the last step"}, heat);
+  return heat;
+}
+
+void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
+  sink({"heat_release", "W/m^3", "heat set free by the gas reactions, mean of the last step"}, heatReleases(state));
 }
 
 }  // namespace lampblack::flow

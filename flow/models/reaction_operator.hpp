@@ -22,6 +22,7 @@
 #include "core/modules.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/cell_reactor.hpp"
+#include "flow/models/combustion/cell_mixing.hpp"
 #include "flow/models/coupled_cells.hpp"
 #include "flow/models/shared_cell_work.hpp"
 #include "flow/operator.hpp"
@@ -67,6 +68,15 @@ class ReactionOperator : public Operator {
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
   Diagnostics takeDiagnostics();  // collective
+  // How the cells are mixed; without one each is its mean. It has to live as long. For another reactor that heeds it
+  // otherwise than by its reacting share the constructor has one.
+  void mixBy(MixingModel& mixing) { mixing_ = &mixing; }
+  // As it was in the last sweep, of an owned cell.
+  [[nodiscard]] CellMixing mixingOf(std::size_t cell) const {
+    return mixing_ ? mixing_->present()[cell] : CellMixing{};
+  }
+  // W/m3, of the owned cells: what the reactions of the last step have set free.
+  [[nodiscard]] std::vector<double> heatReleases(const State& state) const;
   // The rates of the state are these (kg/m3/s, species a cell), not those of a step that led to it.
   void setRates(State& state, std::span<const double> rates);
 
@@ -91,6 +101,8 @@ class ReactionOperator : public Operator {
 
  private:
   using Work = SharedCellWork::Work<CellReactor::Gas, CellReactor::Result>;
+  template <typename Take>
+  void eachRates(const State& state, bool wantsSlopes, const Take& take);
   [[nodiscard]] double meanDensity(const State& state, std::size_t cell) const;
   [[nodiscard]] double densityOfRate(const State& state, std::size_t cell) const;
   // Work whose items have mass fractions and their sources behind the gas; mass fractions come back.
@@ -106,6 +118,7 @@ class ReactionOperator : public Operator {
   const FlowContext& context_;
   Options options_;
   std::unique_ptr<CellReactor> reactor_;
+  MixingModel* mixing_ = nullptr;
   std::vector<CellReactor::Cell> cells_;  // of solve()
   SharedCellWork work_;
   std::vector<double> initialStep_;  // s, CellReactor::Gas::firstStep of the next solve

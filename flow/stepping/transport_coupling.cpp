@@ -84,6 +84,7 @@ void TransportOperator::coupleReactions(const State& mean, State& state, double 
     cell.enthalpy = state.start.enthalpy[c];
     cell.referenceTemperature = mean.temperature[c];
     cell.referenceEnthalpy = 0.5 * (state.start.enthalpy[c] + state.enthalpy[c]);
+    cell.mixing = reactions_->mixingOf(static_cast<std::size_t>(c));
     cell.Y = rowOf(state.start.Y);
     cell.reference = rowOf(mean.Y);
     cell.reacts = rowOf(state.balance.reactions);

@@ -23,8 +23,9 @@ namespace {
 using test::Flame;
 
 // At the beginning of a step without transport.
-CarriedOperator operatorOf(Flame& flame) {
+CarriedOperator operatorOf(Flame& flame, MixingModel* mixing = nullptr) {
   CarriedOperator particles(flame.context, *flame.flowCase.carried, 0, flame.flowCase.carriedOptions);
+  if (mixing != nullptr) particles.mixBy(*mixing);
   particles.endStep(flame.state);
   particles.endSweep(flame.state);
   return particles;
@@ -104,6 +105,75 @@ TEST_P(EveryModel, KeepsMassElementsAndEnthalpy) {
     EXPECT_GT(model.volumeFraction(particles.densities(std::as_const(flame.state), c)), 1e-13);
     EXPECT_GT(flame.state.carriedDiffusivity[model.scalars().size() * static_cast<std::size_t>(c)], 0.0);
   }
+}
+
+// The same share of the reactions everywhere.
+class EvenMixing final : public MixingModel {
+ public:
+  EvenMixing(const Mesh& mesh, double share) : cells_(static_cast<std::size_t>(mesh.owned), {share, 0.0}) {}
+  [[nodiscard]] std::span<const CellMixing> present() const override { return cells_; }
+  std::span<const CellMixing> of(const State&) override { return cells_; }
+
+ private:
+  std::vector<CellMixing> cells_;
+};
+
+// At a share of their rates particles do in a step what they do in as much less time, take as much less from the gas,
+// and keep what they keep; rates and their slopes have the share, too.
+TEST(MixedParticles, ChangeAtTheReactingShare) {
+  const std::vector<std::string> deck{"particles.description=two_equation_dimer"};
+  const double share = 0.3, dt = 1e-4;
+  Flame slow(MPI_COMM_SELF, test::sootingGas, deck), brief(MPI_COMM_SELF, test::sootingGas, deck);
+  for (Flame* flame : {&slow, &brief}) operatorOf(*flame).advance(flame->state, 0.0, dt);  // soot to begin with
+  EvenMixing mixing(slow.mesh, share), none(slow.mesh, 0.0);
+  CarriedOperator mixed = operatorOf(slow, &mixing), plain = operatorOf(brief);
+  const State start = slow.state;
+  std::vector<Contents> before;
+  for (int c = 0; c < slow.mesh.owned; ++c)
+    before.push_back(contentsOf(slow, c, start.temperature[static_cast<std::size_t>(c)]));
+  const auto ratesOf = [&](CarriedOperator& particles) {
+    State::Balance rates = start.balance;
+    std::ranges::fill(rates.reactions, 0.0);
+    rates.clear();
+    particles.addRates(start, rates);
+    rates.exchanged.insert(rates.exchanged.end(), rates.carried.begin(), rates.carried.end());
+    rates.exchanged.insert(rates.exchanged.end(), rates.enthalpy.begin(), rates.enthalpy.end());
+    return rates.exchanged;
+  };
+  const auto some = ratesOf(mixed), all = ratesOf(plain);
+  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_NEAR(some[i], share * all[i], 1e-12 * std::abs(all[i])) << i;
+  const std::size_t width = static_cast<std::size_t>(start.species) + 1, scalars = start.scalars.size(),
+                    cells = static_cast<std::size_t>(slow.mesh.owned);
+  std::vector<double> gasSome(cells * width * width), gasAll(gasSome), some2(cells * scalars * scalars), all2(some2);
+  mixed.addSlopes(start, {gasSome, some2});
+  plain.addSlopes(start, {gasAll, all2});
+  for (std::size_t i = 0; i < gasAll.size(); ++i)
+    EXPECT_NEAR(gasSome[i], share * gasAll[i], 1e-12 * std::abs(gasAll[i]));
+  for (std::size_t i = 0; i < all2.size(); ++i) EXPECT_NEAR(some2[i], share * all2[i], 1e-12 * std::abs(all2[i]));
+  mixed.advance(slow.state, 0.0, dt);
+  plain.advance(brief.state, 0.0, share * dt);
+  double worst = 0.0, changed = 0.0;
+  for (std::size_t i = 0; i < start.carried.size(); ++i) {
+    changed = std::max(changed, std::abs(slow.state.carried[i] / start.carried[i] - 1.0));
+    EXPECT_NEAR(slow.state.carried[i], brief.state.carried[i], 1e-9 * std::abs(brief.state.carried[i]));
+  }
+  EXPECT_GT(changed, 1e-3);
+  for (std::size_t i = 0; i < start.Y.size(); ++i) EXPECT_NEAR(slow.state.Y[i], brief.state.Y[i], 1e-12);
+  for (int c = 0; c < slow.mesh.owned; ++c) {
+    const auto cell = static_cast<std::size_t>(c);
+    const Contents after = contentsOf(slow, c, start.temperature[cell]);
+    worst = std::max(worst, std::abs(after.mass / before[cell].mass - 1.0));
+    for (std::size_t e = 0; e < after.elements.size(); ++e)
+      if (after.elements[e] > 0.0)
+        worst = std::max(worst, std::abs(after.elements[e] / before[cell].elements[e] - 1.0));
+    worst = std::max(worst, std::abs(after.enthalpy - before[cell].enthalpy) / (after.mass * 1e6));
+  }
+  EXPECT_LT(worst, 1e-12);
+  // Of nothing they stay as they are.
+  const State still = slow.state;
+  operatorOf(slow, &none).advance(slow.state, 0.0, dt);
+  for (std::size_t i = 0; i < still.carried.size(); ++i)
+    EXPECT_NEAR(slow.state.carried[i], still.carried[i], 1e-14 * std::abs(still.carried[i]));
 }
 
 TEST_P(EveryModel, HasTheRatesByWhichAShortStepChangesTheCells) {

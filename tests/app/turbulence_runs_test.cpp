@@ -1,11 +1,6 @@
 // Runs with each model of turbulence: they go on from a checkpoint and onto other pieces of the mesh as if nothing had
 // been, give the same on any number of ranks, and where there are no eddies the flow without a model.
-#include <optional>
-
-#include "tests/app/flow_results.hpp"
-#include "tests/app/flow_runs.hpp"
-#include "tests/core/mpi_support.hpp"
-#include "tests/shared_scratch.hpp"
+#include "tests/app/turbulent_run.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -32,35 +27,6 @@ output: {{boundaries: [wall]}}
 )",
                                     turbulence, speed, atInlet, speed, 5.0 / speed, 1.0 / speed, 1.0 / speed),
                         more);
-}
-
-struct TurbulentRun {
-  Deck deck;
-  std::filesystem::path folder;
-  std::optional<std::filesystem::path> restart = {};
-  bool isMoved = false;  // onto other pieces, before the first step
-  MPI_Comm comm = MPI_COMM_WORLD;
-};
-
-test::Ran resultsOf(const TurbulentRun& of) {
-  if (of.comm != MPI_COMM_NULL) {
-    FlowLoop loop(of.comm, readFlowCase(of.deck));
-    if (of.restart) loop.load(newestCheckpoint(of.comm, *of.restart));
-    if (of.isMoved) {
-      const Mesh& mesh = loop.mesh();
-      std::vector<double> costs(test::at(mesh.owned), 1.0);
-      for (std::size_t c = 0; c < costs.size(); ++c)
-        if (mesh.centre[c][0] > 0.1) costs[c] = 3.0;
-      const std::vector<std::int64_t> before = mesh.naturalCell;
-      loop.repartition(costs);
-      if (mesh.ranks == 2) {
-        EXPECT_NE(loop.mesh().naturalCell, before);
-      }
-    }
-    loop.run(RunFolder::prepare(of.folder, false, of.comm), {"test", "none", of.deck.resolved(), "now"});
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
-  return test::readBack(of.folder / "results.h5");
 }
 
 // A model, and what stands beside its name.

@@ -86,16 +86,20 @@ TEST(RateFactor, IsAsMuchLessTime) {
     std::vector<double> expected = gas.Y, one = gas.Y, lane = gas.Y, mixed = gas.times(1.0 / share);
     ConstantPressureReactor::Cell whole{gas.temperature,    constants::oneAtmosphere, expected, mixed, 0,
                                         gas.heating / share};
-    reactor.advance(whole, share * dt);
+    const auto ofWhole = reactor.advance(whole, share * dt);
     const ConstantPressureReactor::Cell slowed{
         gas.temperature, constants::oneAtmosphere, one, gas.source, 0, gas.heating, share};
     ConstantPressureReactor::Cell alone = slowed;
-    reactor.advance(alone, dt);
+    const auto ofAlone = reactor.advance(alone, dt);
     std::vector<ConstantPressureReactor::Cell> together{slowed};
     together[0].Y = lane;
     std::vector<ConstantPressureReactor::Result> results(1);
     reactor.advance(together, dt, results);
     EXPECT_GT(std::abs(whole.temperature - gas.temperature), 100.0);
+    // A wrong Jacobian costs steps.
+    EXPECT_EQ(ofAlone.handedOver || results[0].handedOver, steps == 0);
+    EXPECT_EQ(ofAlone.steps, ofWhole.steps);
+    EXPECT_EQ(results[0].steps, ofAlone.steps);
     EXPECT_NEAR(alone.temperature, whole.temperature, 1e-3);
     EXPECT_NEAR(together[0].temperature, whole.temperature, 1e-3);
     for (std::size_t k = 0; k < gas.n; ++k) {

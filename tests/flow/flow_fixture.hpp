@@ -28,10 +28,8 @@ namespace lampblack::test {
 
 // One gas for all tests of an executable: its transport fits are made once.
 struct Gas {
-  explicit Gas(const std::string& file)
-      : mechanism(Mechanism::fromFile(sourcePath("cases/mechanisms/" + file))),
-        thermo(mechanism),
-        transport(mechanism) {}
+  explicit Gas(const std::string& file) : Gas(Mechanism::fromFile(sourcePath("cases/mechanisms/" + file))) {}
+  explicit Gas(Mechanism of) : mechanism(std::move(of)), thermo(mechanism), transport(mechanism) {}
   static Gas& hydrogen() {
     static Gas gas("hydrogen_h2o2_10.yaml");
     return gas;

@@ -279,6 +279,9 @@ class StirredCells final : public CellReactor {
                     at < 301.0 ? 0.0 : 1.0};
     }
   }
+  void rates(const Gas&, std::span<const double> Y, const Rates& rates) override {
+    for (std::size_t k = 0; k < inflow_.size(); ++k) rates.values[k] = (inflow_[k] - Y[k]) / residenceTime_;
+  }
 
  private:
   std::vector<double> inflow_;

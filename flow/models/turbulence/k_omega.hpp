@@ -21,6 +21,9 @@ struct KOmega {
     return turbulence::freeStreamOfKOmega(stream);
   }
 
+  [[nodiscard]] static double dissipation(std::span<const double> variables) {
+    return turbulence::dissipationOfKOmega(betaStar, variables);
+  }
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
     const turbulence::KOmegaState s(cell);
     const double S = cell.strain;

@@ -21,6 +21,12 @@ inline std::array<double, 2> freeStreamOfKOmega(const FreeStream& stream) {
   return {stream.energy, std::sqrt(stream.eddyViscosity / stream.energy)};
 }
 
+// beta* k omega. Where g is zero, at a smooth wall, so is k.
+inline double dissipationOfKOmega(double betaStar, std::span<const double> variables) {
+  const double g = std::max(variables[G], 1e-12);
+  return betaStar * std::max(variables[K], 0.0) / (g * g);
+}
+
 struct KOmegaState {
   double k, g, omega;
   double cross;   // 1/s^2, grad k . grad omega / omega

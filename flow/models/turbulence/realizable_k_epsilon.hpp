@@ -21,6 +21,8 @@ struct RealizableKEpsilon {
     return KEpsilon().freeStream(stream);
   }
 
+  [[nodiscard]] static double dissipation(std::span<const double> variables) { return variables[1]; }
+
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
     const double k = std::max(cell.values[0], 0.0), epsilon = std::max(cell.values[1], 1e-30), S = cell.strain;
     TurbulentRates rates;

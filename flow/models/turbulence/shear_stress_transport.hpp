@@ -25,6 +25,9 @@ struct ShearStressTransport {
     return beta / betaStar - sigma * kappa * kappa / std::sqrt(betaStar);
   }
 
+  [[nodiscard]] static double dissipation(std::span<const double> variables) {
+    return turbulence::dissipationOfKOmega(betaStar, variables);
+  }
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
     const turbulence::KOmegaState s(cell);
     const double d = cell.distance, S = cell.strain;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -80,6 +81,8 @@ class TurbulenceModel {
   [[nodiscard]] virtual double wallBeta() const { return 0.0; }
   // Its first variable is k then.
   [[nodiscard]] bool knowsEnergy() const { return variables().size() > 1; }
+  // m^2/s^3, by which k decays; nothing of models that do not know k.
+  [[nodiscard]] virtual std::optional<double> dissipation(std::span<const double> variables) const = 0;
   [[nodiscard]] virtual std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const = 0;
   virtual void evaluate(std::span<const TurbulentCell> cells, std::span<TurbulentRates> rates) const = 0;
 };
@@ -105,6 +108,10 @@ class PointwiseModel : public TurbulenceModel {
   }
   [[nodiscard]] std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const override {
     return kernel_.freeStream(stream);
+  }
+  [[nodiscard]] std::optional<double> dissipation(std::span<const double> variables) const override {
+    if constexpr (requires { Kernel::dissipation(variables); }) return Kernel::dissipation(variables);
+    return {};
   }
   void evaluate(std::span<const TurbulentCell> cells, std::span<TurbulentRates> rates) const override {
     for (std::size_t c = 0; c < cells.size(); ++c) rates[c] = kernel_.at(cells[c]);

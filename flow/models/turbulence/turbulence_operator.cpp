@@ -276,6 +276,25 @@ void TurbulenceOperator::setDiffusivities(State& state) {
   for (std::size_t c = 0; c < rates_.size(); ++c) state.eddyViscosity[c] = state.density[c] * rates_[c].eddyViscosity;
 }
 
+Eddies TurbulenceOperator::eddies(const State& state, int cell, bool ofShear) const {
+  const auto c = static_cast<std::size_t>(cell);
+  const double perMass = 1.0 / state.density[c];
+  Eddies eddies;
+  eddies.viscosity = properties_.viscosity[c] * perMass;
+  eddies.eddyViscosity = state.eddyViscosity[c] * perMass;
+  if (ofShear) {
+    eddies.energy = eddies.eddyViscosity * cells_[c].strain / std::sqrt(walllaw::cMu);
+    eddies.dissipation = eddies.eddyViscosity * cells_[c].strain * cells_[c].strain;
+    return eddies;
+  }
+  std::array<double, TurbulentCell::most> variables{};
+  for (std::size_t v = 0; v < count_; ++v)
+    variables[v] = state.carried[c * state.scalars.size() + first_ + v] * perMass;
+  eddies.energy = variables[0];
+  eddies.dissipation = model_->dissipation(variables).value_or(0.0);
+  return eddies;
+}
+
 void TurbulenceOperator::fields(const State& state, const FieldSink& sink) const {
   const std::size_t n = state.scalars.size();
   std::vector<double> column(cells_.size());

@@ -16,6 +16,7 @@
 #include "flow/boundaries/wall_law.hpp"
 #include "flow/discretisation/velocity_gradient.hpp"
 #include "flow/flow_context.hpp"
+#include "flow/models/combustion/eddies.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
 #include "flow/operator.hpp"
 #include "flow/peak.hpp"
@@ -53,6 +54,11 @@ class TurbulenceOperator : public Operator {
   // Both of them functions of the state alone: the diffusivities of the variables, and the eddy viscosity, all of it.
   // Fills the halo of the state first, which slopes need. Collective.
   void setDiffusivities(State& state) override;
+
+  // What reactions need to know of an owned cell. `ofShear`: dissipated is what shear produces, nu_t S^2, and k is nu_t
+  // S over C_mu^(1/2) (Bradshaw), with the shear of the state that was evaluated last.
+  [[nodiscard]] bool knowsDissipation() const { return model_->knowsEnergy(); }
+  [[nodiscard]] Eddies eddies(const State& state, int cell, bool ofShear) const;
 
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;

@@ -1,0 +1,121 @@
+// Runs of flames in turbulence: the same on any number of ranks and after a restart, without mixing those without a
+// model to the last bit, with closed budgets, and where a model cannot be its message.
+#include "tests/app/turbulent_run.hpp"
+
+namespace lampblack::app {
+namespace {
+
+using testing::HasSubstr;
+
+// Hydrogen in nitrogen beside hot air, seven steps.
+Deck mixingDeck(const std::string& combustion, std::vector<std::string> more = {}) {
+  more.emplace_back("checkpoint.steps=3");
+  return test::flowDeck("hydrogen_h2o2_10.yaml",
+                        fmt::format(R"(
+turbulence: {{model: sst, walls: automatic, eddy_viscosity_ratio: 20, energy: 30 m^2/s^2, wall_distance: infinite}}
+combustion: {{{}}}
+mesh: {{geometry: planar, x: [{{to: 8 mm, cells: 8}}], y: [{{to: 8 mm, cells: 6}}]}}
+boundaries:
+  fuel: {{type: inlet, side: y-min, to: 4 mm, velocity: 40 m/s, temperature: 500 K, composition: "H2: 0.5, N2: 0.5", turbulence_intensity: 0.1, turbulence_length: 1 mm}}
+  air: {{type: inlet, side: y-min, from: 4 mm, velocity: 20 m/s, temperature: 1400 K, composition: "O2: 0.21, N2: 0.79", turbulence_intensity: 0.1, turbulence_length: 1 mm}}
+  out: {{type: outlet, side: y-max, temperature: 1400 K, composition: "O2: 0.21, N2: 0.79"}}
+  middle: {{type: symmetry, side: x-min}}
+  side: {{type: symmetry, side: x-max}}
+initial: {{layer: none, composition: "O2: 0.1, H2: 0.2, N2: 0.7", temperature: 1400 K, formula: {{velocity_y: "30"}}}}
+time: {{end: 70 us, first_step: 10 us, maximum_step: 10 us}}
+output: {{boundaries: [out]}}
+)",
+                                    combustion),
+                        more);
+}
+
+TEST(CombustionRuns, GoOnAndDoNotDependOnRanks) {
+  for (const std::string model : {"pasr", "edc"}) {
+    SCOPED_TRACE(model);
+    const test::SharedScratchFolder scratch;
+    const Deck deck = mixingDeck("model: " + model);
+    const auto whole = scratch.path() / "whole";
+    const test::Ran all = resultsOf({deck, whole});
+    const std::vector<double>& share = all.fields.at("000007/reacting_share");
+    EXPECT_GT(*std::ranges::max_element(share), 1.2 * *std::ranges::min_element(share));
+    EXPECT_GT(*std::ranges::min_element(share), 0.0);
+    EXPECT_LT(all.history.at("reacting_share_mean").back(), 0.9);
+    EXPECT_GT(all.history.at("heat_release").back(), 0.0);
+    expectSameBits(resultsOf({deck, scratch.path() / "rest", whole}), all);
+    if (test::worldSize() == 1) continue;
+    MPI_Comm one = MPI_COMM_NULL;
+    MPI_Comm_split(MPI_COMM_WORLD, test::worldRank() == 0 ? 0 : MPI_UNDEFINED, 0, &one);
+    expectSameFields(resultsOf({deck, scratch.path() / "one", {}, false, one}), all, 1e-7);
+    if (one != MPI_COMM_NULL) MPI_Comm_free(&one);
+  }
+}
+
+TEST(CombustionRuns, WithoutMixingAreLaminarToTheLastBit) {
+  const test::SharedScratchFolder scratch;
+  const test::Ran laminar = resultsOf({mixingDeck("model: laminar"), scratch.path() / "laminar"});
+  for (const std::string model : {"pasr", "edc"}) {
+    const test::Ran all = resultsOf({mixingDeck("laminar_below: 1e9, model: " + model), scratch.path() / model});
+    for (const auto& [name, values] : laminar.fields) EXPECT_EQ(all.fields.at(name), values) << name;
+    for (const double share : all.fields.at("000007/reacting_share")) EXPECT_EQ(share, 1.0);
+    EXPECT_EQ(all.history.at("heat_release_laminar").back(), 0.0);
+  }
+}
+
+TEST(CombustionCase, RefusesWhatCannotBe) {
+  struct Wrong {
+    std::string combustion;
+    std::vector<std::string> overrides;
+    std::vector<std::string> words;
+  };
+  const std::string sa = "turbulence={model: sa, wall_distance: infinite}";
+  const Wrong decks[] = {
+      {"model: pasr", {sa}, {"combustion.model", "'sa' does not know", "'combustion.dissipation: shear'"}},
+      {"model: edc", {"turbulence={model: wang, wall_distance: infinite}"}, {"'wang' does not know"}},
+      {"model: flamelet", {}, {"combustion.model", "flamelet", "pasr"}},
+      {"model: laminar, mixing_constant: 1", {}, {"combustion.mixing_constant"}},
+      {"model: edc, chemical_time: slowest_species", {}, {"combustion.chemical_time"}},
+      {"model: pasr, version: 1996", {}, {"combustion.version"}},
+      {"model: pasr, mixing_constant: 0", {}, {"combustion.mixing_constant"}},
+      {"model: pasr, laminar_below: -1", {}, {"combustion.laminar_below"}},
+      {"model: pasr, soot_factor: kappa", {}, {"combustion.soot_factor", "no model of particles"}},
+      {"model: edc, soot_factor: kappa", {}, {"combustion.soot_factor"}},
+  };
+  for (const Wrong& deck : decks) {
+    SCOPED_TRACE(deck.combustion);
+    const std::string message =
+        test::messageOf<InputError>([&] { (void)readFlowCase(mixingDeck(deck.combustion, deck.overrides)); });
+    for (const std::string& word : deck.words) EXPECT_THAT(message, HasSubstr(word));
+  }
+  for (const std::string model : {"pasr", "edc"}) {
+    const std::string laminar = test::messageOf<InputError>(
+        [&] { (void)readFlowCase(test::flameDeck({"combustion={model: " + model + "}"})); });
+    EXPECT_THAT(laminar, HasSubstr("combustion.model"));
+    EXPECT_THAT(laminar, HasSubstr("'" + model + "' goes by the turbulence, and the flow has none; expected laminar"));
+  }
+  EXPECT_TRUE(readFlowCase(mixingDeck("model: pasr, dissipation: shear", {sa})).combustion->dissipationOfShear);
+  EXPECT_FALSE(readFlowCase(mixingDeck("model: laminar")).combustion);
+}
+
+TEST(CombustionCase, TakesWhatTheDeckSays) {
+  const auto optionsOf = [](const std::string& keys) { return *readFlowCase(mixingDeck(keys)).combustion; };
+  const auto usual = optionsOf("model: pasr");
+  EXPECT_EQ(usual.chemicalTime, ChemicalTime::Kind::WeightedReactions);
+  EXPECT_EQ(usual.mixingTime, MixingTime::Effective);
+  EXPECT_EQ(usual.mixingConstant, 0.3);
+  EXPECT_EQ(usual.laminarBelow, 0.1);
+  EXPECT_EQ(optionsOf("model: pasr, chemical_time: reactions_of6").chemicalTime, ChemicalTime::Kind::ReactionsOf6);
+  EXPECT_EQ(optionsOf("model: pasr, chemical_time: slowest_species").chemicalTime, ChemicalTime::Kind::SlowestSpecies);
+  EXPECT_EQ(optionsOf("model: pasr, mixing_time: kolmogorov").mixingTime, MixingTime::Kolmogorov);
+  EXPECT_EQ(optionsOf("model: pasr, mixing_time: geometric").mixingTime, MixingTime::Geometric);
+  EXPECT_EQ(optionsOf("model: pasr, mixing_time: integral").mixingTime, MixingTime::Integral);
+  const auto powers = [&](const std::string& version) {
+    const FineStructures fine = optionsOf("model: edc, version: " + version).fine;
+    return std::pair(fine.powerAbove, fine.powerBelow);
+  };
+  EXPECT_EQ(powers("2005"), std::pair(2.0, 2.0));
+  EXPECT_EQ(powers("1996"), std::pair(2.0, 3.0));
+  EXPECT_EQ(powers("1981"), std::pair(3.0, 3.0));
+}
+
+}  // namespace
+}  // namespace lampblack::app
