@@ -83,6 +83,7 @@ void addCombustionKeys(DeckSchema& schema) {
 }
 
 void readCombustion(const Deck& deck, FlowCase& flowCase) {
+  if (!deck.has("combustion")) return;
   const std::string model = deck.choice(key);
   if (model == "laminar") return;
   const TurbulenceModel* turbulence = flowCase.turbulence.model.get();

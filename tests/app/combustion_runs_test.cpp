@@ -7,7 +7,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Hydrogen in nitrogen beside hot air, seven steps.
+// Hydrogen in nitrogen beside hot air, some ten steps.
 Deck mixingDeck(const std::string& combustion, std::vector<std::string> more = {}) {
   more.emplace_back("checkpoint.steps=3");
   return test::flowDeck("hydrogen_h2o2_10.yaml",
@@ -29,6 +29,12 @@ output: {{boundaries: [out]}}
                         more);
 }
 
+// Of the last step.
+const std::vector<double>& lastOf(const test::Ran& ran, const std::string& field) {
+  const std::string& name = ran.fields.rbegin()->first;
+  return ran.fields.at(name.substr(0, name.find('/') + 1) + field);
+}
+
 TEST(CombustionRuns, GoOnAndDoNotDependOnRanks) {
   for (const std::string model : {"pasr", "edc"}) {
     SCOPED_TRACE(model);
@@ -36,7 +42,7 @@ TEST(CombustionRuns, GoOnAndDoNotDependOnRanks) {
     const Deck deck = mixingDeck("model: " + model);
     const auto whole = scratch.path() / "whole";
     const test::Ran all = resultsOf({deck, whole});
-    const std::vector<double>& share = all.fields.at("000007/reacting_share");
+    const std::vector<double>& share = lastOf(all, "reacting_share");
     EXPECT_GT(*std::ranges::max_element(share), 1.2 * *std::ranges::min_element(share));
     EXPECT_GT(*std::ranges::min_element(share), 0.0);
     EXPECT_LT(all.history.at("reacting_share_mean").back(), 0.9);
@@ -56,7 +62,7 @@ TEST(CombustionRuns, WithoutMixingAreLaminarToTheLastBit) {
   for (const std::string model : {"pasr", "edc"}) {
     const test::Ran all = resultsOf({mixingDeck("laminar_below: 1e9, model: " + model), scratch.path() / model});
     for (const auto& [name, values] : laminar.fields) EXPECT_EQ(all.fields.at(name), values) << name;
-    for (const double share : all.fields.at("000007/reacting_share")) EXPECT_EQ(share, 1.0);
+    for (const double share : lastOf(all, "reacting_share")) EXPECT_EQ(share, 1.0);
     EXPECT_EQ(all.history.at("heat_release_laminar").back(), 0.0);
   }
 }

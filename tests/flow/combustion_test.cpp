@@ -267,7 +267,7 @@ TEST_F(Mixed, FineStructuresReactAndMixBack) {
 
 // Long against what they mix in, an interval is taken in parts: as in many short ones.
 TEST_F(Mixed, FineStructuresTakeLongIntervalsInParts) {
-  const double fineTime = 2e-6, share = 0.5, dt = 3.9e-5;
+  const double fineTime = 2e-6, share = 0.5, dt = 3.9e-5, heating = 1e10;
   std::vector<double> whole = burning, parts = burning, source(n, 0.0);
   const auto cellOf = [&](std::span<double> Y) {
     CellReactor::Cell cell{{}, Y, source};
@@ -275,6 +275,7 @@ TEST_F(Mixed, FineStructuresTakeLongIntervalsInParts) {
     cell.gas.pressure = 101325.0;
     cell.gas.enthalpy = gas.thermo.enthalpyMass(1200.0, Y);
     cell.gas.mixing = {share, fineTime};
+    cell.gas.heating = heating;
     return cell;
   };
   const auto reactor = fineCells();
@@ -288,10 +289,89 @@ TEST_F(Mixed, FineStructuresTakeLongIntervalsInParts) {
     reactor->advance({&cell, 1}, dt / count, results);
     cell.gas.temperature = results[0].temperature;
     cell.gas.firstStep = results[0].firstStep;
+    cell.gas.enthalpy += dt / count * heating;
   }
   EXPECT_GT(steps, 19.0);
   EXPECT_NEAR(results[0].temperature, temperature, 1e-6 * temperature);
   for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(whole[k], parts[k], 1e-9);
+}
+
+// Cells that go together with their neighbours take their shares along.
+TEST_F(Mixed, CoupledCellsReactAtTheirShares) {
+  CoupledCells cells(n);
+  CoupledCells::Cell cell;
+  cell.mass = 1e-6;
+  cell.pressure = 101325.0;
+  cell.temperature = cell.referenceTemperature = 1200.0;
+  cell.enthalpy = gas.thermo.enthalpyMass(1200.0, burning);
+  cell.Y = cell.reference = burning;
+  cell.brought = cell.reacts = std::vector<double>(n, 0.0);
+  cell.mixing = {0.3, 2e-6};
+  cells.add(cell);
+  cells.gather(MPI_COMM_SELF);
+  int asked = 0;
+  const auto react = [&](std::span<CoupledCells::Reacting> all, double) {
+    for (const CoupledCells::Reacting& of : all) {
+      ++asked;
+      EXPECT_EQ(of.gas.mixing.reactingShare, 0.3);
+      EXPECT_EQ(of.gas.mixing.fineTime, 2e-6);
+    }
+  };
+  cells.advance(MPI_COMM_SELF, react, gas.thermo, 1e-6, 2);
+  EXPECT_EQ(asked, 2);
+}
+
+// A shear of which epsilon can be made, and what the history tells of a heat release that is given.
+TEST_F(Mixed, OperatorsTellOfEddiesAndHeat) {
+  const double shear = 500.0, energy = 2.0, eddies = 1.5e-3;
+  const auto model = std::make_shared<PointwiseModel<StillEddies>>();
+  State state = box.stateWith({TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+                              [&](const Vector3& x) {
+                                return Box::Local{{0.0, shear * x[0]}, 1200.0, burning};
+                              });
+  GasProperties properties;
+  properties.update(box.context, state);
+  TurbulenceOperator turbulence(box.context, state, model, properties);
+  turbulence.setStart(state, {5e-5, eddies, energy});
+  turbulence.setDiffusivities(state);
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    if (std::abs(box.mesh.centre[at(c)][0] - 0.004) > 0.002) continue;
+    const Eddies own = turbulence.eddies(state, c, false), ofShear = turbulence.eddies(state, c, true);
+    EXPECT_NEAR(own.energy, energy, 1e-12);
+    EXPECT_NEAR(own.dissipation, 0.09 * energy * energy / eddies, 1e-9);
+    EXPECT_NEAR(own.eddyViscosity, eddies, 1e-12);
+    EXPECT_NEAR(own.viscosity, properties.viscosity[at(c)] / state.density[at(c)], 1e-15);
+    // Planes of symmetry stop the gas across them, which adds to the shear.
+    const double all = std::sqrt(ofShear.dissipation / eddies);
+    EXPECT_GT(all, (1.0 - 1e-9) * shear);
+    EXPECT_LT(all, 4.0 * shear);
+    EXPECT_NEAR(ofShear.energy, eddies * all / 0.3, 1e-9);
+  }
+  // Heat where x is above the middle, and some that is taken below it.
+  const auto heat = [&](const State&) {
+    std::vector<double> all;
+    for (int c = 0; c < box.mesh.owned; ++c) all.push_back(box.mesh.centre[at(c)][0] > 0.004 ? 2.0 : -1.0);
+    return all;
+  };
+  CombustionOperator::Options options;
+  options.mixingTime = MixingTime::Integral;
+  for (const double constant : {0.3, 1e6}) {
+    options.mixingConstant = constant;
+    CombustionOperator combustion(box.context, options, turbulence, heat);
+    combustion.endSweep(state);
+    const std::vector<double> told = combustion.historyValues(state);
+    const double share = combustion.present()[0].reactingShare;
+    EXPECT_NEAR(told[0], share, 1e-12 * share);
+    EXPECT_NEAR(told[1], share, 1e-12 * share);
+    EXPECT_NEAR(told[2], 1.0 / share - 1.0, 1e-9 / share);
+    EXPECT_EQ(told[3], constant > 1.0 ? 1.0 : 0.0);
+    EXPECT_EQ(told[4], 0.0);
+  }
+  std::ranges::fill(state.eddyViscosity, 1e-7);
+  CombustionOperator weak(box.context, options, turbulence, heat);
+  weak.endSweep(state);
+  EXPECT_EQ(weak.historyValues(state)[4], 1.0);
+  EXPECT_EQ(weak.present()[0].reactingShare, 1.0);
 }
 
 // One cell through which gas flows, of A that becomes B in eddies that stay: Y_in - Y = t k kappa Y with kappa =
