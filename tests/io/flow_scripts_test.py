@@ -1,5 +1,5 @@
 """What scripts/mesh_to_gmsh writes of a run's box, and what scripts/compare_flows says of two runs, scripts/compare_santoro,
-compare_turbulent_step, compare_wall_friction and compare_round_jet of some, on results written here."""
+compare_turbulent_step, compare_wall_friction, compare_round_jet and compare_sandia_d of some, on results written here."""
 
 import json
 import pathlib
@@ -251,7 +251,33 @@ def check_round_jet(folder):
     assert code == 2 and "no jet of three cells" in err, err
 
 
+def check_sandia_d(folder):
+    """Fuel and air in proportion, the fuel's share falling along the axis."""
+    more = {"mesh": {"geometry": "axisymmetric"}, "combustion": {"model": "edc"}}
+    share = lambda z: np.exp(-z / 0.3)
+    run = write_run(folder / "flame", np.linspace(0, 0.02, 21), np.linspace(0, 0.6, 121), lambda r, z: 300 + 1000 * z, more)
+    with h5py.File(run / "results.h5", "r+") as file:
+        z = file["mesh/cellCentre"][:, 1]
+        fuel = {"CH4": 0.25, "O2": 0.1575, "N2": 0.5925, "CO": 0.0}
+        air = {"CH4": 0.0, "O2": 0.21, "N2": 0.79, "CO": 0.0}
+        weigh = lambda of: sum(x * {"CH4": 16.043, "O2": 31.998, "N2": 28.014, "CO": 28.010}[s] for s, x in of.items())
+        moles = {s: share(z) * fuel[s] / weigh(fuel) + (1 - share(z)) * air[s] / weigh(air) for s in fuel}
+        for s, n in moles.items():
+            file[f"steps/000003/X_{s}"] = n / sum(moles.values())
+        file["steps/000003/velocity"] = np.stack([0 * z, 63 - 50 * z, 0 * z], axis=1)
+    code, told, err = called("compare_sandia_d", run, "--json", "--picture", folder / "flame.png")
+    assert code == 0 and (folder / "flame.png").stat().st_size > 1000, err
+    for row in json.loads(told):
+        at = row["x/D"] * 7.2e-3
+        assert row["model"] == "edc" and abs(row["Z"] - share(at)) < 2e-4 and row["CO"] == 0, row
+        assert abs(row["T"] - 300 - 1000 * at) < 1e-6 and abs(row["u"] - 63 + 50 * at) < 1e-6, row
+    assert row["x/D"] == 60 and row["measured"]["T"] == 1543, row
+    code, _, err = called("compare_sandia_d", folder / "nowhere")
+    assert code == 2 and "nowhere" in err, err
+
+
 with tempfile.TemporaryDirectory() as scratch:
+    check_sandia_d(pathlib.Path(scratch))
     check_turbulent_step(pathlib.Path(scratch))
     check_wall_friction(pathlib.Path(scratch))
     check_round_jet(pathlib.Path(scratch))
