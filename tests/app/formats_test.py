@@ -135,7 +135,8 @@ def main(executable: str, *mpiexec: str) -> int:
                                                     "time.steady.stability={time: 0.1 ms, vectors: 2}", "time.steady.continuation={maximum_points: 2, key: pressure}"))
         for model in ("sa", "sst", "wray_agarwal", "k_epsilon"):
             runs[f"turbulent_{model}"] = (CASES / "flow/turbulent_channel/deck.yaml", *running.settings(
-                f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms", "output.boundaries=[wall]"))
+                f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms", "output.boundaries=[wall]",
+                f"combustion={{model: {'pasr' if model == 'k_epsilon' else 'laminar'}}}"))
         # All blocks of an instant: five are soon over.
         runs["flow_ensembles"] = (ensembles, *running.settings(
             "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "particles={description: ensemble, number: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",
