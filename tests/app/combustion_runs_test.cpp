@@ -51,7 +51,8 @@ TEST(CombustionRuns, GoOnAndDoNotDependOnRanks) {
     if (test::worldSize() == 1) continue;
     MPI_Comm one = MPI_COMM_NULL;
     MPI_Comm_split(MPI_COMM_WORLD, test::worldRank() == 0 ? 0 : MPI_UNDEFINED, 0, &one);
-    expectSameFields(resultsOf({deck, scratch.path() / "one", {}, false, one}), all, 1e-7);
+    // Fine structures ignite by reactors of their own, to the tolerance of the chemistry.
+    expectSameFields(resultsOf({deck, scratch.path() / "one", {}, false, one}), all, model == "pasr" ? 1e-7 : 1e-5);
     if (one != MPI_COMM_NULL) MPI_Comm_free(&one);
   }
 }
