@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/mixture_fraction.hpp"
 #include "core/mesh.hpp"
 #include "core/modules.hpp"
 #include "coupling/ensemble_operator.hpp"
@@ -115,10 +116,11 @@ struct OutputTables {
 };
 
 struct OutputControl {
-  double interval = 0.0;             // s between field outputs
-  int historySteps = 1;              // steps between rows of the history
-  std::vector<std::size_t> species;  // mole fractions written
-  bool wallDistance = false;         // whether it is a field
+  double interval = 0.0;                           // s between field outputs
+  int historySteps = 1;                            // steps between rows of the history
+  std::vector<std::size_t> species;                // mole fractions written
+  bool wallDistance = false;                       // whether it is a field
+  std::optional<MixtureFraction> mixtureFraction;  // a field where it is there
   FileStorage storage;
   OutputTables tables;
 };

@@ -56,6 +56,26 @@ std::vector<std::size_t> readTableBoundaries(const Deck& deck, const FlowCase& f
   return numbers;
 }
 
+// The mass fractions of a boundary that the section names.
+const std::vector<double>& streamNamed(const Deck& deck, const std::string& key, const FlowCase& flowCase) {
+  std::vector<std::string> streams;
+  for (const BoundaryCondition& boundary : flowCase.boundaries) {
+    if (boundary.Y.empty()) continue;
+    if (boundary.name == deck.string(key)) return boundary.Y;
+    streams.push_back(boundary.name);
+  }
+  throw deck.error(key, fmt::format("'{}' is no boundary with a gas of its own; these are: {}", deck.string(key),
+                                    fmt::join(streams, ", ")));
+}
+
+void readMixtureFraction(const Deck& deck, FlowCase& flowCase) {
+  const std::string section = "output.mixture_fraction";
+  if (!deck.has(section)) return;
+  const auto& fuel = streamNamed(deck, section + ".fuel", flowCase);
+  const auto& oxidizer = streamNamed(deck, section + ".oxidizer", flowCase);
+  deck.at(section, [&] { flowCase.output.mixtureFraction.emplace(*flowCase.mechanism, fuel, oxidizer); });
+}
+
 }  // namespace
 
 std::string fileNameOf(std::string name) {
@@ -82,6 +102,10 @@ void addOutputKeys(DeckSchema& schema) {
                       "Whether the distance of each cell's centre from the nearest wall is a field of the results, "
                       "wall_distance. Boundaries of the type wall count.")
                .byDefault("false"))
+      .section("output.mixture_fraction", Presence::optional,
+               "Bilger's mixture fraction as a field of the results, mixture_fraction, by two streams of the deck.")
+      .add(stringKey("output.mixture_fraction.fuel", "Inlet or outlet whose gas has a mixture fraction of one."))
+      .add(stringKey("output.mixture_fraction.oxidizer", "Inlet or outlet whose gas has a mixture fraction of zero."))
       .add(integerKey("output.compression",
                       "How hard the fields of results.h5 are compressed, from 1, fast, to 9, small; 0: not at all. No "
                       "value changes.")
@@ -136,6 +160,7 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
     throw deck.error("output.wall_distance", "no boundary of this deck is a wall; expected false");
   if (output.wallDistance && flowCase.turbulence.ignoresWalls)
     throw deck.error("output.wall_distance", "expected false where 'turbulence.wall_distance' is infinite");
+  readMixtureFraction(deck, flowCase);
   output.storage = {deck.integer<int>("output.compression"), deck.optionalInteger<int>("output.writers").value_or(0)};
   output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
   flowCase.checkpoint = {deck.optionalInteger<std::int64_t>("checkpoint.steps"), deck.quantity("checkpoint.wall_time"),

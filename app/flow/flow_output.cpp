@@ -84,6 +84,10 @@ void flowFields(const FlowContext& context, const FlowCase& flowCase, const Stat
   if (!context.wallDistance.empty())
     give({"wall_distance", "m", "distance of the cell's centre from the nearest wall"}, 1, context.wallDistance);
   std::vector<double> column(owned), weight;
+  if (const auto& mixture = flowCase.output.mixtureFraction; mixture && counts("mixture_fraction")) {
+    for (std::size_t c = 0; c < owned; ++c) column[c] = mixture->of({&state.Y[c * n], n});
+    sink({"mixture_fraction", "1", "mixture fraction of Bilger, from the oxidizer to the fuel"}, 1, column);
+  }
   for (std::size_t k : flowCase.output.species) {
     const std::string& species = context.mechanism.speciesName(k);
     const std::string name = "X_" + species;
