@@ -23,9 +23,11 @@ constexpr double near = 0.2;
 constexpr int quietSteps = 20;
 constexpr double quietHeat = 0.05;
 constexpr int stepsPerResidual = 10;
-// Iterations without a residual that is less than the best before by a share.
+// Iterations without a residual, the largest or that of momentum or heat, that is less than the best before by a share,
+// and without more heat than before by a share: while a flame grows the residuals rise from those of a start in which
+// little happens, and the largest, of a radical that is hardly there, tells nothing.
 constexpr int patience = 100;
-constexpr double gain = 0.9;
+constexpr double gain = 0.9, growth = 1.05;
 constexpr int mostFailures = 8;  // one behind the other
 // Of the residual that iterations begin with: with more they run away.
 constexpr double mostGrown = 1e4;
@@ -102,8 +104,9 @@ void SteadySearch::resume(const Residual& residual, double heatRelease) {
 void SteadySearch::beginIterations(const Residual& residual, double heatRelease) {
   phase_ = Phase::Iterations;
   began_ = residual;
-  best_ = residual.largest;
+  best_ = residual;
   heatAtBegin_ = heatRelease;
+  mostHeat_ = std::max(heatAtBegin_, 0.0);
   iterationsNow_ = bestAt_ = failures_ = dark_ = 0;
 }
 
@@ -137,12 +140,17 @@ void SteadySearch::addIteration(const Residual& told, double heatRelease, bool b
     goBack("nothing burns in the steady state that was found");
     return;
   }
-  if (residual < gain * best_) {
-    best_ = residual;
+  for (double Residual::*of : {&Residual::largest, &Residual::ofMomentum, &Residual::ofEnthalpy})
+    if (told.*of < gain * (best_.*of)) {
+      best_.*of = told.*of;
+      bestAt_ = iterationsNow_;
+    }
+  if (heatRelease > growth * mostHeat_) {
+    mostHeat_ = heatRelease;
     bestAt_ = iterationsNow_;
   }
   if (!isAttempt_ && iterationsNow_ - bestAt_ >= patience)
-    goBack(fmt::format("the residual has not fallen below {:.2e} in {} iterations", best_, patience));
+    goBack(fmt::format("the residual has not fallen below {:.2e} in {} iterations", best_.largest, patience));
   else if (hasNoIterationsLeft() && isAttempt_)
     goBack(fmt::format("{} iterations were not enough", iterationsNow_));
   else if (hasNoIterationsLeft())
@@ -203,7 +211,7 @@ double SteadySearch::progress() const {
 }
 
 void SteadySearch::saveOrLoad(StateArchive& archive) {
-  const std::array<double*, 10> values{&first_,
+  const std::array<double*, 13> values{&first_,
                                        &least_,
                                        &latest_.largest,
                                        &latest_.ofMomentum,
@@ -212,7 +220,10 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
                                        &began_.ofMomentum,
                                        &began_.ofEnthalpy,
                                        &heatAtBegin_,
-                                       &best_};
+                                       &mostHeat_,
+                                       &best_.largest,
+                                       &best_.ofMomentum,
+                                       &best_.ofEnthalpy};
   std::vector<double> numbers;
   for (const double* value : values) numbers.push_back(*value);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,

@@ -104,7 +104,8 @@ class SteadySearch {
   Residual latest_{0.0};
   // Of the present iterations: the residual and the heat that they began with, the least residual since, when it was.
   Residual began_{0.0};
-  double heatAtBegin_ = 0.0, best_ = 0.0;
+  double heatAtBegin_ = 0.0, mostHeat_ = 0.0;
+  Residual best_{0.0};  // the least of each since iterations began
   int iterationsNow_ = 0, bestAt_ = 0;
   int failures_ = 0, dark_ = 0;  // in a row: failures, iterations with a small part of that heat
   int attempts_ = 0, attempted_ = 0;

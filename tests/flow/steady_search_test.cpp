@@ -198,6 +198,23 @@ TEST(SteadySearch, GoesBackWhereTheResidualStandsStill) {
   EXPECT_THAT(search.whyNot(), HasSubstr("8.90e-02 in 100 iterations"));
 }
 
+// The largest residual, of a trace, stands still all the while.
+TEST(SteadySearch, StaysWithAFlameThatGrowsOrWhoseMomentumOrHeatComesToRest) {
+  const auto run = [](double momentum, double enthalpy, double heat, int iterations) {
+    SteadySearch search({});
+    steps(search);
+    for (int i = 1; i <= iterations && search.phase() == Phase::Iterations; ++i)
+      search.addIteration({high, high * std::pow(momentum, i), high * std::pow(enthalpy, i)}, std::pow(heat, i), true);
+    return search.phase() == Phase::Iterations;
+  };
+  EXPECT_FALSE(run(1.0, 1.0, 1.0, 120));
+  EXPECT_TRUE(run(0.99, 1.0, 1.0, 240));
+  EXPECT_TRUE(run(1.0, 0.99, 1.0, 240));
+  EXPECT_TRUE(run(1.0, 1.0, 1.001, 240));
+  EXPECT_FALSE(run(1.0, 1.0, 0.9999, 240));
+  EXPECT_FALSE(run(1.0, 1.0, 1.0004, 240));  // by less than a twentieth in a hundred
+}
+
 TEST(SteadySearch, IterationsThatRunAwayAreTakenBack) {
   SteadySearch search({});
   steps(search);
