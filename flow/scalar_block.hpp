@@ -15,6 +15,9 @@ namespace lampblack::flow {
 struct ScalarBoundary {
   double value = 0.0;   // of the gas that flows in (Inlet, Outlet); at the face itself where that is held
   bool isHeld = false;  // Inlet, Wall: the face has the value, to which and from which the scalar diffuses and drifts
+  FieldFunction varies = {};  // of the place, in place of the value; empty: it is the same everywhere
+
+  [[nodiscard]] double at(const Vector3& place) const { return varies ? varies(place, 0.0) : value; }
 };
 
 // A quantity that the flow carries without knowing what it means (soot number, sections, moments): its density per

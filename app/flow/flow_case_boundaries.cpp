@@ -97,13 +97,17 @@ Vector3 middleOf(const BoundaryPatch& patch, const MeshSpec& mesh) {
   return mesh.map ? mesh.map(place) : place;
 }
 
+constexpr const char *energyName = "turbulent_kinetic_energy", *dissipationName = "turbulent_dissipation";
+
 // What may vary over a boundary of a type.
 GivenFields::Names variableNames(const std::string& type) {
   GivenFields::Names names{{"temperature", units::temperature}};
   if (type == "outlet") return names;
   names["tangential_velocity"] = names["swirl_velocity"] = units::velocity;
   if (type == "inlet")
-    names["velocity"] = units::velocity;
+    names.insert({{"velocity", units::velocity},
+                  {energyName, units::velocity * units::velocity},
+                  {dissipationName, units::velocity * units::velocity / units::time}});
   else
     names["heat_flux"] = units::heatFlux;
   return names;
@@ -127,6 +131,8 @@ class ConditionReader {
                         fields_.find("swirl_velocity"),
                         fields_.find("heat_flux"),
                         fields_.gas(),
+                        fields_.find(energyName),
+                        fields_.find(dissipationName),
                         fields_.varyInTime()};
   }
 
@@ -228,6 +234,13 @@ class ConditionReader {
     boundary_.fixedComposition = deck_.choice(keyOf("species")) == "fixed";
     if (!isGiven("velocity")) throw deck_.error(section_, "an inlet needs the key 'velocity'");
     boundary_.speed = valueOf("velocity");
+    for (const auto& [name, partner] : {std::pair{energyName, dissipationName}, {dissipationName, energyName}}) {
+      if (!fields_.has(name)) continue;
+      if (!fields_.has(partner))
+        throw deck_.error(fields_.keyOf(name), fmt::format("'{}' needs '{}' beside it", name, partner));
+      if (fields_.dependsOnTime(name))
+        throw deck_.error(fields_.keyOf(name), fmt::format("'{}' does not vary in time; expected no t", name));
+    }
     requireLowMach(deck_, fields_.has("velocity") ? fields_.keyOf("velocity") : keyOf("velocity"), Thermo(mechanism_),
                    std::hypot(boundary_.speed, boundary_.swirl), given_.temperature, given_.Y);
   }

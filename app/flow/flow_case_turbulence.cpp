@@ -28,13 +28,24 @@ FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCas
   const auto length = deck.optionalQuantity(section + ".turbulence_length");
   const auto ratio = deck.optionalNumber(section + ".eddy_viscosity_ratio");
   const bool knowsEnergy = flowCase.turbulence.model->knowsEnergy();
+  if (boundary.varies.turbulentEnergy) {
+    if (intensity || length || ratio)
+      throw deck.error(
+          section,
+          "the turbulence that comes in is given by 'turbulent_kinetic_energy' and 'turbulent_dissipation'; "
+          "expected no 'turbulence_intensity', 'turbulence_length' and 'eddy_viscosity_ratio' beside them");
+    return {.viscosity = kinematicViscosity(flowCase, boundary.temperature, boundary.Y),
+            .energyAt = boundary.varies.turbulentEnergy,
+            .dissipationAt = boundary.varies.turbulentDissipation};
+  }
   if (length && ratio)
     throw deck.error(section, "expected one of 'turbulence_length' and 'eddy_viscosity_ratio', found both");
   if (length && !intensity) throw deck.error(section, "a 'turbulence_length' needs a 'turbulence_intensity', too");
   if (knowsEnergy && (!intensity || (!length && !ratio)))
     throw deck.error(section,
                      "this turbulence model needs a 'turbulence_intensity' and one of 'turbulence_length' and "
-                     "'eddy_viscosity_ratio' of each inlet");
+                     "'eddy_viscosity_ratio' of each inlet, or by formula or table its 'turbulent_kinetic_energy' and "
+                     "'turbulent_dissipation'");
   FreeStream stream;
   stream.viscosity = kinematicViscosity(flowCase, boundary.temperature, boundary.Y);
   stream.eddyViscosity = ratio.value_or(ratioOfStream) * stream.viscosity;
@@ -102,6 +113,12 @@ void addTurbulenceKeys(DeckSchema& schema) {
                      "y+ 300.")
                .byDefault("resolved")
                .onlyWith("turbulence.model", ofOmega))
+      .add(numberKey("turbulence.c_epsilon1",
+                     "C_1 of k_epsilon, by which what makes k makes epsilon. 1.6 lets round jets spread as they are "
+                     "measured to; beside walls the logarithmic layer is another then (kappa 0.35).")
+               .byDefault("1.44")
+               .above(0)
+               .onlyWith("turbulence.model", {"k_epsilon"}))
       .add(numberKey("turbulence.largest_eddy_viscosity_ratio",
                      "A run ends where the eddy viscosity over that of the molecules becomes larger.")
                .byDefault("1e5")
@@ -137,9 +154,10 @@ void addTurbulenceKeys(DeckSchema& schema) {
 void readTurbulenceModel(const Deck& deck, FlowCase& flowCase) {
   const std::string name = deck.choice("turbulence.model");
   if (name == "none") return;
-  flowCase.turbulence.model = turbulenceModel(name);
-  if (flowCase.turbulence.model->wallBeta() > 0.0 && deck.choice("turbulence.walls") == "automatic")
-    flowCase.turbulence.model = turbulenceModel(name, true);
+  TurbulenceChoices choices;
+  choices.blendsLayers = turbulenceModel(name)->wallBeta() > 0.0 && deck.choice("turbulence.walls") == "automatic";
+  if (deck.isGiven("turbulence.c_epsilon1")) choices.dissipationSource = deck.number("turbulence.c_epsilon1");
+  flowCase.turbulence.model = turbulenceModel(name, choices);
 }
 
 void readTurbulence(const Deck& deck, FlowCase& flowCase) {
@@ -149,6 +167,10 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
       for (const char* key : {"turbulence_intensity", "turbulence_length", "eddy_viscosity_ratio"})
         if (const std::string full = "boundaries." + boundary.name + "." + key; deck.has(full))
           throw deck.error(full, "the flow has no turbulence model; expected a 'turbulence.model'");
+    for (const BoundaryCondition& boundary : flowCase.boundaries)
+      if (boundary.varies.turbulentEnergy)
+        throw deck.error("boundaries." + boundary.name,
+                         "turbulence comes in, and the flow has no turbulence model; expected a 'turbulence.model'");
     return;
   }
   TurbulenceCase& turbulence = flowCase.turbulence;

@@ -90,7 +90,9 @@ void addBoundaries(DeckSchema& schema) {
   flowcase::addGivenFieldKeys(
       schema, "boundaries.*",
       "velocity (below zero: the gas that is there leaves), tangential_velocity, swirl_velocity, temperature, "
-      "heat_flux and, of a stream, X_<species>, its mole fraction (the species that are not "
+      "heat_flux, of an inlet turbulent_kinetic_energy and turbulent_dissipation (both, in place of the keys "
+      "'turbulence_intensity' and 'turbulence_length'), and, of a stream, X_<species>, its mole fraction (the species "
+      "that are not "
       "named share what is left of one in the proportions of 'composition')");
 }
 

@@ -32,7 +32,8 @@ class GivenFields {
   [[nodiscard]] FieldFunction find(const std::string& name) const;
   // Temperature and mole fractions.
   [[nodiscard]] GasVariation gas() const { return {find("temperature"), moleFractions_}; }
-  // Whether any of them depends on time.
+  // Whether this one, which is given, and any of them depends on time.
+  [[nodiscard]] bool dependsOnTime(const std::string& name) const { return fields_.at(name).inTime; }
   [[nodiscard]] bool varyInTime() const;
   // The key of the deck that gives the name.
   [[nodiscard]] std::string keyOf(const std::string& name) const;

@@ -20,7 +20,8 @@ enum class BoundaryKind {
 struct BoundaryVariation {
   FieldFunction speed, tangential, swirl, heatFlux;
   GasVariation gas;
-  bool inTime = false;  // whether any of them depends on time
+  FieldFunction turbulentEnergy, turbulentDissipation;  // m^2/s^2, m^2/s^3: Inlet, not in time; for FreeStream
+  bool inTime = false;                                  // whether any of them depends on time
 
   [[nodiscard]] bool isEmpty() const { return !speed && !tangential && !swirl && !heatFlux && gas.isEmpty(); }
 };

@@ -30,7 +30,8 @@ time: {end: 1 ms, maximum_step: 0.1 ms}
 const std::string atInlet = "boundaries.in.turbulence_intensity=0.1",
                   withLength = "boundaries.in.turbulence_length=1 mm",
                   withRatio = "boundaries.in.eddy_viscosity_ratio=5", noWall = "boundaries.left.type=symmetry",
-                  sa = "turbulence.model=sa";
+                  sa = "turbulence.model=sa", varied = "boundaries.in.formula.turbulent_kinetic_energy=0.1 + 10*x",
+                  ofDissipation = "boundaries.in.formula.turbulent_dissipation=2*(0.1 + 10*x)";
 
 TEST(TurbulenceCase, RefusesWhatCannotBe) {
   struct Wrong {
@@ -55,6 +56,17 @@ TEST(TurbulenceCase, RefusesWhatCannotBe) {
        {"boundaries.in.turbulence_intensity", "the flow has no turbulence model"}},
       {{"turbulence={model: none}", withLength}, {"boundaries.in.turbulence_length", "no turbulence model"}},
       {{"turbulence={model: none}", withRatio}, {"boundaries.in.eddy_viscosity_ratio", "no turbulence model"}},
+      {{"boundaries.in.formula.turbulent_kinetic_energy=0.1"},
+       {"boundaries.in.formula.turbulent_kinetic_energy", "needs 'turbulent_dissipation' beside it"}},
+      {{"boundaries.in.formula.turbulent_dissipation=0.1"}, {"needs 'turbulent_kinetic_energy' beside it"}},
+      {{varied, "boundaries.in.formula.turbulent_dissipation=1 + t"}, {"does not vary in time; expected no t"}},
+      {{varied, ofDissipation, atInlet}, {"boundaries.in", "expected no 'turbulence_intensity'"}},
+      {{varied, ofDissipation, withLength},
+       {"boundaries.in", "expected no 'turbulence_intensity', 'turbulence_length'"}},
+      {{varied, ofDissipation, withRatio}, {"boundaries.in", "and 'eddy_viscosity_ratio' beside them"}},
+      {{"turbulence={model: none}", varied, ofDissipation}, {"boundaries.in", "the flow has no turbulence model"}},
+      {{atInlet, withLength, "boundaries.left.formula.turbulent_kinetic_energy=1"}, {"boundaries.left"}},
+      {{"turbulence.c_epsilon1=1.6"}, {"turbulence.c_epsilon1"}},
       {{"turbulence={model: none, schmidt: 0.7}"}, {"turbulence.schmidt"}},
       {{"turbulence={model: none, wall_distance: infinite}"}, {"turbulence.wall_distance"}},
       {{sa, "turbulence.walls=automatic"}, {"turbulence.walls"}},
@@ -93,6 +105,33 @@ TEST(TurbulenceCase, TellsOfUnlikelyInlets) {
       readFlowCase(channelDeck({"boundaries.in.turbulence_intensity=2", "boundaries.in.turbulence_length=9 mm"})).notes,
       ElementsAre("boundaries.in.turbulence_length: 0.009 m, more than the mesh is long",
                   "boundaries.in.turbulence_intensity: more than one, 2"));
+}
+
+TEST(TurbulenceCase, TakesTurbulenceThatVariesOverAnInlet) {
+  for (const char* model : {"sst", "k_epsilon", "sa"}) {
+    const FlowCase flowCase =
+        readFlowCase(channelDeck({varied, ofDissipation, std::string("turbulence.model=") + model}));
+    const flow::FreeStream there = flowCase.turbulence.boundaries.at(0).at({1e-3, 0.0, 0.0});
+    EXPECT_NEAR(there.energy, 0.11, 1e-15) << model;
+    EXPECT_NEAR(there.eddyViscosity, 0.09 * 0.11 / 2.0, 1e-15) << model;
+  }
+}
+
+TEST(TurbulenceCase, KnowsTheMixtureFractionOfTwoStreams) {
+  const std::string fuel = "output.mixture_fraction.fuel=fuel", air = "output.mixture_fraction.oxidizer=oxidiser";
+  const FlowCase flowCase = readFlowCase(test::flameDeck({fuel, air}));
+  ASSERT_TRUE(flowCase.output.mixtureFraction.has_value());
+  for (const flow::BoundaryCondition& boundary : flowCase.boundaries) {
+    if (boundary.kind != flow::BoundaryKind::Inlet) continue;
+    EXPECT_NEAR(flowCase.output.mixtureFraction->of(boundary.Y), boundary.name == "fuel" ? 1.0 : 0.0, 1e-14);
+  }
+  const auto said = [&](const std::string& one, const std::string& two) {
+    return test::messageOf<InputError>([&] { (void)readFlowCase(test::flameDeck({one, two})); });
+  };
+  EXPECT_THAT(
+      said("output.mixture_fraction.fuel=feul", air),
+      AllOf(HasSubstr("output.mixture_fraction.fuel"), HasSubstr("'feul' is no boundary"), HasSubstr("oxidiser")));
+  EXPECT_THAT(said("output.mixture_fraction.fuel=oxidiser", air), HasSubstr("no mixture fraction between them"));
 }
 
 TEST(TurbulenceCase, NeedsNoWallsWhereTheirDistanceDoesNotCount) {

@@ -39,7 +39,9 @@ TEST_F(VaryingBoundaries, HaveTheirValuesAtTheirFacesAndTimes) {
                          [](const Place& x, double t) { return 3.0 * x[1] + t; },
                          {},
                          {[](const Place&, double t) { return 300.0 + t; },
-                          {{gas.mechanism.speciesIndex("H2"), [](const Place& x, double) { return x[1] / size; }}}}};
+                          {{gas.mechanism.speciesIndex("H2"), [](const Place& x, double) { return x[1] / size; }}}},
+                         {},
+                         {}};
   Box b = box(in, outlet());
   b.context.varying->set(4.0, 3.0);
   const std::size_t H2 = gas.mechanism.speciesIndex("H2"), O2 = gas.mechanism.speciesIndex("O2");

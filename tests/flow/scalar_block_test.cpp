@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <numbers>
 
+#include "core/errors.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "tests/every_module.hpp"
 #include "tests/flow/scalar_toy.hpp"
+#include "tests/messages.hpp"
 
 namespace lampblack::test {
 namespace {
@@ -64,6 +66,26 @@ struct PlugFlow {
     return c;
   }
 };
+
+// What an inlet brings may differ from face to face, and goes on along the stream.
+TEST(ScalarBlocks, AToyVariesOverAnInlet) {
+  ScalarChannel channel(1e-3, 5, 3e-3, 9);
+  const Mesh& m = channel.box.mesh;
+  ScalarToy toy;
+  toy.diffusivity = 1e-12;
+  toy.given = {
+      {"ymin", {.value = 9.0, .isHeld = true, .varies = [](const Vector3& x, double) { return 1.0 + 2e3 * x[0]; }}}};
+  State state = channel.stateOf({toy.block(channel.box.context)});
+  TransportOperator transport(channel.box.context, state);
+  march(state, transport, toy, 1e-3, 80);
+  for (int c = 0; c < m.owned; ++c)
+    EXPECT_NEAR(state.carried[at(c)] / state.density[at(c)], 1.0 + 2e3 * m.centre[at(c)][0], 1e-5);
+  toy.given["ymin"].varies = [](const Vector3&, double) -> double { throw InputError("not here"); };
+  State wrong = channel.stateOf({toy.block(channel.box.context)});
+  const std::string message = messageOf<InputError>([&] { const TransportOperator other(channel.box.context, wrong); });
+  EXPECT_NE(message.find("boundary ymin, at ("), std::string::npos) << message;
+  EXPECT_NE(message.find("not here"), std::string::npos) << message;
+}
 
 // As fast as variables of turbulence are taken beside walls: the cell has what it is held at, and the others what
 // diffusion brings, whose number does not depend on how fast that is.

@@ -352,7 +352,7 @@ TEST(Turbulence, GrowsInHomogeneousShear) {
 TEST(Turbulence, FreeStreamsHaveTheEddyViscosityAskedFor) {
   for (const TurbulenceRow& row : turbulenceModels())
     for (const double ratio : {1e-3, 0.21, 30.0}) {
-      const auto model = row.make(false);
+      const auto model = row.make({});
       EXPECT_EQ(model->name(), row.name);
       TurbulentCell cell{.strain = 1e-9, .distance = 1e6, .viscosity = nu};
       cell.values = model->freeStream({nu, ratio * nu, 0.01});
@@ -362,6 +362,35 @@ TEST(Turbulence, FreeStreamsHaveTheEddyViscosityAskedFor) {
     }
   EXPECT_NEAR(dampedRatio(81.0 / (27.0 + std::pow(7.1, 3)), 7.1), 3.0, 1e-12);
   EXPECT_THROW(turbulenceModel("none of these"), InputError);
+}
+
+TEST(TurbulenceModels, AStreamMayVaryOverItsBoundary) {
+  const FreeStream stream{.viscosity = nu,
+                          .energyAt = [](const Vector3& place, double) { return 4.0 * place[0]; },
+                          .dissipationAt = [](const Vector3& place, double) { return 90.0 * place[0] * place[1]; }};
+  const FreeStream there = stream.at({2.0, 5.0, 0.0});  // k 8, epsilon 900
+  EXPECT_NEAR(there.energy, 8.0, 1e-14);
+  EXPECT_NEAR(there.eddyViscosity, 0.09 * 64.0 / 900.0, 1e-16);
+  EXPECT_EQ(there.viscosity, nu);
+  const auto values = turbulenceModel("k_epsilon")->freeStream(there);
+  EXPECT_NEAR(values[0], 8.0, 1e-14);
+  EXPECT_NEAR(values[1], 900.0, 1e-11);
+  EXPECT_NEAR(turbulenceModel("sst")->freeStream(there)[1], 1.0 / std::sqrt(900.0 / (0.09 * 8.0)), 1e-15);  // omega
+  EXPECT_THROW((void)stream.at({-1.0, -1.0, 0.0}), InputError);
+  EXPECT_THROW((void)stream.at({1.0, 0.0, 0.0}), InputError);
+  const FreeStream even{nu, 3.0 * nu, 0.2};
+  EXPECT_EQ(even.at({1.0, 1.0, 0.0}).energy, 0.2);
+}
+
+TEST(TurbulenceModels, WhatMakesEnergyMakesDissipationByAConstant) {
+  TurbulentCell cell{.strain = 100.0, .viscosity = nu};
+  cell.values = {2.0, 50.0};
+  std::array<TurbulentRates, 1> rates;
+  turbulenceModel("k_epsilon", {.dissipationSource = 1.6})->evaluate({&cell, 1}, rates);
+  EXPECT_NEAR(rates[0].source[1], 1.6 * 0.09 * 2.0 * 1e4, 1e-9);
+  EXPECT_NEAR(ratesOf("k_epsilon", cell).source[1], 1.44 * 0.09 * 2.0 * 1e4, 1e-9);
+  for (const char* model : {"sst", "sa", "realizable_k_epsilon"})
+    EXPECT_THROW(turbulenceModel(model, {.dissipationSource = 1.6}), InputError) << model;
 }
 
 }  // namespace

@@ -128,7 +128,7 @@ struct Corner {
   GasProperties properties;
 
   explicit Corner(double energy, const char* name = "k_epsilon", bool blendsLayers = false)
-      : k(energy), model(turbulenceModel(name, blendsLayers)) {
+      : k(energy), model(turbulenceModel(name, {.blendsLayers = blendsLayers})) {
     for (int c = 0; c < box.mesh.cells; ++c) {
       state.carried[at(3 * c + 1)] = state.density[at(c)] * k;
       state.carried[at(3 * c + 2)] = state.density[at(c)] * 20.0;
@@ -293,7 +293,7 @@ TEST(WallLaw, AModelOfOmegaHasBothLayersAtOnce) {
                   1e-10);
     }
   }
-  EXPECT_THROW((void)turbulenceModel("sa", true), InputError);
+  EXPECT_THROW((void)turbulenceModel("sa", {.blendsLayers = true}), InputError);
 }
 
 // y+ and friction that are told; walls do not hold k and epsilon.

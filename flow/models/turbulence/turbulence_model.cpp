@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/errors.hpp"
+#include "flow/boundaries/wall_law.hpp"
 #include "flow/models/turbulence/k_epsilon.hpp"
 #include "flow/models/turbulence/k_omega.hpp"
 #include "flow/models/turbulence/realizable_k_epsilon.hpp"
@@ -18,8 +19,13 @@ namespace lampblack::flow {
 namespace {
 
 template <class Kernel>
-std::shared_ptr<const TurbulenceModel> make(bool blendsLayers) {
-  return std::make_shared<PointwiseModel<Kernel>>(Kernel{}, blendsLayers);
+std::shared_ptr<const TurbulenceModel> make(const TurbulenceChoices& choices) {
+  Kernel kernel;
+  if constexpr (requires(Kernel k) { k.c1 = 1.0; })
+    kernel.c1 = choices.dissipationSource.value_or(kernel.c1);
+  else if (choices.dissipationSource)
+    throw InputError(fmt::format("the turbulence model '{}' has no constant C_1", kernel.name()));
+  return std::make_shared<PointwiseModel<Kernel>>(kernel, choices.blendsLayers);
 }
 
 const std::array rows{
@@ -41,13 +47,24 @@ std::span<const TurbulenceRow> turbulenceModels() {
   return rows;
 }
 
-std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name, bool blendsLayers) {
+std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name, const TurbulenceChoices& choices) {
   const auto row = std::ranges::find(rows, name, [](const TurbulenceRow& r) { return std::string_view(r.name); });
   if (row == rows.end()) throw InputError(fmt::format("there is no turbulence model '{}'", name));
-  auto model = row->make(blendsLayers);
-  if (blendsLayers && model->wallBeta() <= 0.0)
+  auto model = row->make(choices);
+  if (choices.blendsLayers && model->wallBeta() <= 0.0)
     throw InputError(fmt::format("the turbulence model '{}' has no omega for the blended law of the wall", name));
   return model;
+}
+
+FreeStream FreeStream::at(const Vector3& place) const {
+  if (!varies()) return *this;
+  const double k = energyAt(place, 0.0), epsilon = dissipationAt(place, 0.0);
+  if (!(k > 0.0) || !(epsilon > 0.0))
+    throw InputError(
+        fmt::format("turbulent_kinetic_energy and turbulent_dissipation are to be above zero, found {:g} m^2/s^2 and "
+                    "{:g} m^2/s^3",
+                    k, epsilon));
+  return {.viscosity = viscosity, .eddyViscosity = walllaw::cMu * k * k / epsilon, .energy = k};
 }
 
 double dampedRatio(double ratio, double c) {

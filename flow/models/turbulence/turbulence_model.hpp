@@ -16,6 +16,7 @@
 
 #include "core/mesh.hpp"
 #include "core/modules.hpp"
+#include "flow/boundaries/gas_variation.hpp"
 #include "flow/scalar_block.hpp"
 
 namespace lampblack::flow {
@@ -58,6 +59,12 @@ struct FreeStream {
   double viscosity = 0.0;      // m^2/s, kinematic, molecular
   double eddyViscosity = 0.0;  // m^2/s
   double energy = 0.0;         // m^2/s^2, k; of models that know it
+  // k and epsilon (m^2/s^3) over a boundary, in place of the two values above; empty: the same everywhere.
+  FieldFunction energyAt = {}, dissipationAt = {};
+
+  [[nodiscard]] bool varies() const { return static_cast<bool>(energyAt); }
+  // At a place. InputError where k or epsilon is not above zero.
+  [[nodiscard]] FreeStream at(const Vector3& place) const;
 };
 
 class TurbulenceModel {
@@ -122,14 +129,22 @@ class PointwiseModel : public TurbulenceModel {
   bool blendsLayers_;
 };
 
+// What a deck may choose of a model.
+struct TurbulenceChoices {
+  bool blendsLayers = false;                  // the blended law of the wall, of models with omega
+  std::optional<double> dissipationSource{};  // C_1 of k-epsilon, in place of its own
+};
+
 struct TurbulenceRow {
   const char* name;  // in decks
   const char* description;
-  std::shared_ptr<const TurbulenceModel> (*make)(bool blendsLayers);
+  std::shared_ptr<const TurbulenceModel> (*make)(const TurbulenceChoices& choices);
 };
 [[nodiscard]] std::span<const TurbulenceRow> turbulenceModels();
-// InputError for a name that no row has, and for the blended law of a model without omega.
-[[nodiscard]] std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name, bool blendsLayers = false);
+// InputError for a name that no row has, for the blended law of a model without omega, and for C_1 of one that has
+// none.
+[[nodiscard]] std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name,
+                                                                     const TurbulenceChoices& choices = {});
 
 // The root X of X^4 / (X^3 + c^3) = ratio: of models whose eddy viscosity is X nu f with f = X^3/(X^3 + c^3).
 [[nodiscard]] double dampedRatio(double ratio, double c);

@@ -32,6 +32,10 @@ ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std:
       const BoundaryKind kind = conditions[b].kind;
       if (kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet)
         boundary.value = model.freeStream(boundaries[b])[s];
+      if (boundaries[b].varies())
+        boundary.varies = [&model, stream = boundaries[b], s](const Vector3& place, double) {
+          return model.freeStream(stream.at(place))[s];
+        };
       const bool isResolved = conditions[b].isNoSlipWall() && !model.usesWallLaw();
       boundary.isHeld = kind == BoundaryKind::Inlet || isResolved;
       block.scalars[s].boundaries.push_back(boundary);
@@ -81,7 +85,8 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
     const auto patch = static_cast<std::size_t>(m.patch[b]);
     known_.push_back(state.scalars[first_].boundaries[patch].isHeld ? BoundaryData::Value : open);
     for (std::size_t v = 0; v < count_; ++v)
-      boundaryValues_[b * count_ + v] = state.scalars[first_ + v].boundaries[patch].value;
+      boundaryValues_[b * count_ + v] =
+          state.scalars[first_ + v].boundaries[patch].at(m.faceCentre[static_cast<std::size_t>(face)]);
   }
   findLayers();
 }
