@@ -20,6 +20,7 @@ struct InitialFields {
   std::vector<FieldFunction> carried;           // per m3, of each carried scalar of all blocks; empty: none
   // Of a turbulence model: its variables per kg, then the eddy viscosity, Pa s; empty: those of its start.
   std::vector<FieldFunction> turbulence;
+  bool isLit = false;  // what is mixed burns (lightMixture)
 
   [[nodiscard]] bool isEmpty() const {
     return gas.isEmpty() && !velocity[0] && !velocity[1] && !velocity[2] && !swirl && carried.empty();

@@ -8,6 +8,7 @@
 #include "core/wall_distance.hpp"
 #include "flow/models/combustion/fine_structure_cells.hpp"
 #include "flow/models/constant_pressure_cells.hpp"
+#include "flow/steady/lighting.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -144,6 +145,7 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
     for (int c = 0; c < mesh.owned; ++c)
       ensembles->initialise(state, c, flowCase.startPopulation(static_cast<std::uint64_t>(mesh.naturalCell[c])));
   });
+  if (flowCase.initialFields.isLit) lightMixture(context, state);
   if (turbulence) turbulence->setStart(state, flowCase.turbulence.start, flowCase.initialFields.turbulence);
   flow.initialise(state, flowCase.time.firstStep);
 }

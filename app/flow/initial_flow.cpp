@@ -266,7 +266,13 @@ void addInitialFlowKeys(DeckSchema& schema) {
                      "mechanism ('output: {species: [all]}')."))
       .add(quantityKey(section + ".time", units::time,
                        "Time of the earlier run; the output next to it is taken. Absent: the last output.")
-               .optional());
+               .optional())
+      .add(booleanKey(
+               section + ".light",
+               "true: what is mixed in the earlier run burns at the start: each cell whose mixture burns to a gas "
+               "at least 500 K hotter becomes that gas, of 2200 K at most. For a flame behind a body, in gas that "
+               "has found its way there.")
+               .byDefault("false"));
 }
 
 InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase) {
@@ -324,7 +330,9 @@ InitialFields readInitialFlow(const Deck& deck, FlowCase& flowCase) {
       file /= "results.h5";
       if (!std::filesystem::exists(file) && std::filesystem::exists(part)) file = part;
     }
-    return readEarlierFlow(file, deck.optionalQuantity(section + ".time"), flowCase);
+    InitialFields fields = readEarlierFlow(file, deck.optionalQuantity(section + ".time"), flowCase);
+    fields.isLit = deck.boolean(section + ".light");
+    return fields;
   });
 }
 

@@ -44,6 +44,7 @@ std::vector<std::vector<double>> gasesOf(const FlowContext& context, const State
 
 std::int64_t lightMixture(const FlowContext& context, State& state) {
   const auto n = static_cast<std::size_t>(state.species);
+  const std::size_t scalars = state.scalars.size();
   std::int64_t lit = 0;
   collectively(context.mesh.comm, [&] {
     BurntMixture burnt(context.mechanism, context.thermo);
@@ -57,7 +58,9 @@ std::int64_t lightMixture(const FlowContext& context, State& state) {
       std::ranges::copy(Y, &state.Y[c * n]);
       state.temperature[c] = T;
       state.enthalpy[c] = context.thermo.enthalpyMass(T, Y);
+      const double before = state.density[c];
       state.density[c] = context.thermo.density(T, state.thermodynamicPressure, Y);
+      for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, &lit, 1, MPI_INT64_T, MPI_SUM, context.mesh.comm);

@@ -14,8 +14,8 @@ namespace lampblack::flow {
 constexpr double leastRiseOfLighting = 500.0;
 
 // Burns the mixture of each cell (BurntMixture, to 2200 K at most) that this heats by leastRiseOfLighting or more;
-// velocities and carried scalars stay. The halo is updated. Returned is the number of cells that were lit, of all
-// ranks. Collective.
+// velocities stay, and carried scalars per kg. The halo is updated. Returned is the number of cells that were lit, of
+// all ranks. Collective.
 std::int64_t lightMixture(const FlowContext& context, State& state);
 
 // Whether a mixture of any two of the gases that inlets and outlets are given, and of the mean gas of the domain,

@@ -121,6 +121,20 @@ def told_mass(program, deck, folder):
     assert -5e-5 < others < 1e-4, (others, result.out)
 
 
+def lit(program, deck, folder):
+    """A cold mixture that is lit is hot, and burnt."""
+    whole = "initial={layer: none, composition: 'C2H4: 0.05, O2: 0.2, N2: 0.75', temperature: 300 K}"
+    result = program("run", deck, "--out", folder / "mixed", *running.settings(whole, "particles.description=none", "time.end=1 us"))
+    assert result.code == 0, result.err
+    start = "initial={layer: none, flow: {results: ../mixed, light: true}}"
+    result = program("run", deck, "--out", folder / "lit", *running.settings(start, "particles.description=none", "time.end=1 us"))
+    assert result.code == 0, result.err
+    _, before = fields(folder / "mixed", max)
+    _, after = fields(folder / "lit", min)
+    assert before["temperature"].max() < 400 and after["temperature"].min() > 1500, (before["temperature"].max(), after["temperature"].min())
+    assert after["X_CO2"].min() > 0.05 and after["X_C2H4"].max() < 1e-3
+
+
 def other_particles(program, deck, folder):
     """Particles are taken only where all that the model carries is there with the same meaning; else the gas alone, which is told."""
     shutil.copytree(folder / "earlier", folder / "renamed")
@@ -232,6 +246,7 @@ def main(executable, *mpiexec):
         finer_mesh(two, deck, folder)
         other_mechanism(one, deck, folder)
         told_mass(one, deck, folder)
+        lit(one, deck, folder)
         other_particles(two, deck, folder)
         misfits(one, deck, folder)
         closed_vessel(one, folder)

@@ -7,6 +7,7 @@
 
 #include "flow/burnt_mixture.hpp"
 #include "flow_fixture.hpp"
+#include "scalar_toy.hpp"
 
 namespace lampblack::test {
 namespace {
@@ -55,6 +56,21 @@ TEST_F(Lighting, BurnsWhatBurnsAndNothingElse) {
   }
   EXPECT_EQ(state.velocity, before.velocity);
   EXPECT_EQ(lightMixture(box.context, state), 0) << "it burns already";
+}
+
+// What eddies have per kg of the gas stays as the gas becomes thinner.
+TEST_F(Lighting, LeavesWhatIsCarriedPerMass) {
+  ScalarToy toy;
+  State carrying = box.stateWith({toy.block(box.context)}, [&](const auto& place) {
+    return Box::Local{{0.3, 0.0}, 300.0, mixtures.at(static_cast<std::size_t>(place[0] / 0.2))};
+  });
+  for (std::size_t c = 0; c < carrying.density.size(); ++c) carrying.carried[c] = 7.0 * carrying.density[c];
+  const State before = carrying;
+  EXPECT_EQ(lightMixture(box.context, carrying), 1);
+  for (int c = 0; c < box.mesh.owned; ++c) {
+    EXPECT_NEAR(carrying.carried[at(c)], 7.0 * carrying.density[at(c)], 1e-12);
+    if (box.mesh.naturalCell[at(c)] == 1) EXPECT_LT(carrying.density[at(c)], 0.2 * before.density[at(c)]);
+  }
 }
 
 TEST_F(Lighting, KnowsWhatCouldBurn) {

@@ -315,5 +315,21 @@ TEST(Turbulence, EddiesSpreadByTheirNumbers) {
   }
 }
 
+// The block of the carried scalars has at each place of an inlet what the model makes of the stream there.
+TEST(Turbulence, AStreamThatVariesComesInAsItIsThere) {
+  const auto model = turbulenceModel("k_epsilon");
+  BoundaryCondition inlet, wall;
+  inlet.kind = BoundaryKind::Inlet;
+  const FreeStream stream{.viscosity = ofMolecules,
+                          .energyAt = [](const Vector3& place, double) { return 2.0 + place[0]; },
+                          .dissipationAt = [](const Vector3& place, double) { return 30.0 * place[1]; }};
+  const ScalarBlock block = TurbulenceOperator::blockOf(*model, {inlet, wall}, {stream, {}});
+  const Vector3 place{0.5, 2.0, 0.0};
+  EXPECT_NEAR(block.scalars[0].boundaries[0].at(place), 2.5, 1e-14);
+  EXPECT_NEAR(block.scalars[1].boundaries[0].at(place), 60.0, 1e-12);
+  EXPECT_TRUE(block.scalars[1].boundaries[0].isHeld);
+  EXPECT_EQ(block.scalars[0].boundaries[1].at(place), 0.0);
+}
+
 }  // namespace
 }  // namespace lampblack::test
