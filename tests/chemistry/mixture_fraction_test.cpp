@@ -40,6 +40,9 @@ TEST(MixtureFraction, GoesByTheElementsAlone) {
   EXPECT_NEAR(of("C2H4: 4, O2: 12"), stoichiometric, 1e-5);
   EXPECT_NEAR(of("CO2: 8, H2O: 8"), stoichiometric, 1e-5);
   EXPECT_NEAR(of("CO: 8, H2: 8, O2: 8"), stoichiometric, 1e-5);
+  // What neither burns nor lets burn counts as stoichiometric.
+  for (const char* gas : {"CO2: 1", "H2O: 1", "N2: 1"})
+    EXPECT_NEAR(mixture.of(massFractions(gas)), stoichiometric, 1e-5) << gas;
 }
 
 TEST(MixtureFraction, NeedsTwoStreamsThatDiffer) {
