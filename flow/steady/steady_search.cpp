@@ -141,7 +141,7 @@ void SteadySearch::addIteration(const Residual& told, double heatRelease, bool b
     return;
   }
   for (double Residual::*of : {&Residual::largest, &Residual::ofMomentum, &Residual::ofEnthalpy})
-    if (told.*of < gain * (best_.*of)) {
+    if ((of == &Residual::largest || options_.reacts) && told.*of < gain * (best_.*of)) {
       best_.*of = told.*of;
       bestAt_ = iterationsNow_;
     }
