@@ -12,6 +12,7 @@
 #include "core/random.hpp"
 #include "core/rank_exchange.hpp"
 #include "coupling/ensemble_transport_sides.hpp"
+#include "flow/properties/wall_transfer.hpp"
 #include "particles/collisions/sphere.hpp"
 
 namespace lampblack::coupling {
@@ -70,13 +71,23 @@ bool EnsembleTransport::diffuses(int face) const {
   return options_.diffusion && (context_.mesh.high[face] >= 0 || context_.takesParticles(face));
 }
 
+// As CarriedTransport::diffusiveFlux has it; walls have their own way (flow/properties/wall_transfer.hpp).
+double EnsembleTransport::stirredThrough(const Gas& gas, int face) const {
+  const Mesh& m = context_.mesh;
+  const int low = m.low[face], high = m.high[face];
+  if (gas.state.eddyViscosity.empty() || high < 0) return 0.0;
+  const auto perMass = [&](int cell) { return gas.state.eddyViscosity[cell] / gas.state.density[cell]; };
+  const double mean = m.lowWeight[face] * perMass(low) + (1.0 - m.lowWeight[face]) * perMass(high);
+  return gas.faceDensity[face] * m.area[face] / m.distance[face] * mean / context_.eddies.schmidt;
+}
+
 // Of a local cell: D d^2 at the nodes.
 const double* EnsembleTransport::diffusivityOf(const Gas& gas, int cell) {
   double* row = &diffusivity_[static_cast<std::size_t>(cell) * nodes];
   if (isFound_[cell] != 0) return row;
   isFound_[cell] = 1;
   const CarrierGas carrier{gas.state.temperature[cell], gas.state.thermodynamicPressure, gas.state.density[cell],
-                           gas.viscosity[cell], gas.molecularWeight[cell]};
+                           gas.properties.viscosity[cell], gas.properties.molecularWeight[cell]};
   for (std::size_t node = 0; node < nodes; ++node) {
     const double d = nodes_[node].diameter;
     row[node] = brownianDiffusivity(carrier, d) * d * d;
@@ -103,7 +114,19 @@ void EnsembleTransport::findDensities(const Gas& gas, double part) {
                                                                       : BoundaryData::Nothing;
   }
   gradient_.compute(density_, nothing_, classes, gradients_, known_);
-  if (m.isOblique() && options_.diffusion) context_.halo.update(gradients_, classes * m.dimension);
+  if (m.isOblique() && (options_.diffusion || !gas.state.eddyViscosity.empty()))
+    context_.halo.update(gradients_, classes * m.dimension);
+}
+
+// Through the layer beside a wall; `share`: s/kg, of the cell's mass in a part of a step.
+void EnsembleTransport::findWallDiffusion(const Gas& gas, int cell, double share, Side& side) {
+  const double* here = diffusivityOf(gas, cell);
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const double perSquare = nodes_[node].perSquare;
+    side.diffusion[node] = share / perSquare *
+                           conductanceToWall(context_, gas.state, gas.properties, side.face,
+                                             gas.faceDensity[side.face], here[node] * perSquare);
+  }
 }
 
 void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides) {
@@ -120,9 +143,11 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
     side.face = face;
     side.beyond = isLow ? m.high[face] : m.low[face];
     side.diffuses = diffuses(face);
-    if (!(convected > 0.0) && !side.diffuses) continue;
+    side.stirred = stirredThrough(gas, face) * dt / mass;
+    if (!(convected > 0.0) && !side.diffuses && !(side.stirred > 0.0)) continue;
     side.isWall = side.beyond < 0 && context_.takesParticles(face);
     side.drift = out;
+    if (side.isWall) side.eddies = eddiesToWall(context_, gas.state, gas.properties, face).resistance * mass / dt;
     Vector3 from = difference(m.faceCentreOf(cell, face), m.centre[cell]);
     for (int axis = 0; axis < m.dimension; ++axis)
       from[axis] -= 0.5 * dt * gas.state.velocity[static_cast<std::size_t>(cell) * m.dimension + axis];
@@ -136,18 +161,16 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
       }
       side.convected[k] = convected * (side.isWall ? ratio - 1.0 : ratio);
     }
-    if (side.diffuses) {
-      const double through = dt / mass * gas.faceDensity[face] * m.area[face] / m.distance[face];
-      if (side.isWall) {
-        const double* here = diffusivityOf(gas, cell);
-        for (std::size_t node = 0; node < nodes; ++node) side.diffusion[node] = through * here[node];
-        sides.push_back(side);
-        continue;
+    if (side.isWall) {
+      if (side.diffuses) findWallDiffusion(gas, cell, dt / mass, side);
+    } else if (side.diffuses || side.stirred > 0.0) {
+      if (side.diffuses) {
+        const double through = dt / mass * gas.faceDensity[face] * m.area[face] / m.distance[face];
+        const double own = isLow ? m.lowWeight[face] : 1.0 - m.lowWeight[face];
+        const double *here = diffusivityOf(gas, cell), *there = diffusivityOf(gas, side.beyond);
+        for (std::size_t node = 0; node < nodes; ++node)
+          side.diffusion[node] = through * (own * here[node] + (1.0 - own) * there[node]);
       }
-      const double own = isLow ? m.lowWeight[face] : 1.0 - m.lowWeight[face];
-      const double *here = diffusivityOf(gas, cell), *there = diffusivityOf(gas, side.beyond);
-      for (std::size_t node = 0; node < nodes; ++node)
-        side.diffusion[node] = through * (own * here[node] + (1.0 - own) * there[node]);
       side.diffused.fill(1.0);
       if (m.isOblique())
         for (int k = 0; k < classes; ++k) {
@@ -232,7 +255,7 @@ int EnsembleTransport::findParts(const Gas& gas, double dt) {
     for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
       const int face = m.faceOfCell[i];
       if (m.area[face] <= 0.0) continue;
-      out += std::max(outflow(gas, face, cell), 0.0);
+      out += std::max(outflow(gas, face, cell), 0.0) + stirredThrough(gas, face);
       if (!diffuses(face)) continue;
       const double* D = diffusivityOf(gas, cell) + at.node;
       out += gas.faceDensity[face] * m.area[face] / m.distance[face] * (D[0] + at.part * (D[1] - D[0])) /

@@ -4,11 +4,12 @@
 //
 // Through a face, a particle of the cell `d` with the gas mass M_d at the step's start goes in dt with the probability
 //
-//   p = dt/M_d [ max(m, 0) r + G(D) o ],   m = gas's mass flux out of d + thermophoresis, G = rho_f A D / distance,
+//   p = dt/M_d [ max(m, 0) r + G(D + D_t) o ],   m = gas's mass flux out of d + thermophoresis, G = rho_f A D / distance,
 //
 // as carried scalars do: by upwind convection with the value at the face over that in the cell (r), and by diffusion
-// both ways. A wall that takes particles has the flux of drift and diffusion to it (flow/boundaries/wall_flux.hpp),
-// each particle by its own diffusivity. r is of second order in place and time: linear in the cell, by the gradient of
+// both ways, in a turbulent flow with that of the eddies D_t, which is the same for all. A wall that takes particles has
+// the flux of drift and diffusion to it (flow/boundaries/wall_flux.hpp, flow/properties/wall_transfer.hpp), each particle
+// by its own diffusivity. r is of second order in place and time: linear in the cell, by the gradient of
 // the particles of like size per mass of gas, at the place from which the gas reaches the face in the middle of the
 // time; it is limited to between 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter
 // of slopes would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face.
@@ -32,6 +33,7 @@
 #include "core/random.hpp"
 #include "flow/discretisation/gradient.hpp"
 #include "flow/flow_context.hpp"
+#include "flow/properties/gas_properties.hpp"
 #include "flow/state.hpp"
 #include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/soot/soot_aggregate.hpp"
@@ -51,11 +53,10 @@ class EnsembleTransport {
   };
   // The gas of the step, whose mass fluxes are those that moved it: fields of all local cells and faces.
   struct Gas {
-    const State& state;                       // with State::start
-    std::span<const double> driftFlux;        // kg/s, faces (CarriedTransport)
-    std::span<const double> faceDensity;      // kg/m3
-    std::span<const double> viscosity;        // Pa s
-    std::span<const double> molecularWeight;  // kg/mol
+    const State& state;                   // with State::start
+    std::span<const double> driftFlux;    // kg/s, faces (CarriedTransport)
+    std::span<const double> faceDensity;  // kg/m3
+    const GasProperties& properties;
   };
   // Particles in rows, as packed populations have them, behind a head; arrived ones without it.
   using Rows = std::vector<double>;
@@ -102,9 +103,12 @@ class EnsembleTransport {
   void takeStock(int cell, std::span<const double> population, std::span<const double> arrived);
   void findDensities(const Gas& gas, double part);
   void findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides);
+  void findWallDiffusion(const Gas& gas, int cell, double share, Side& side);
   [[nodiscard]] double outflow(const Gas& gas, int face, int cell) const;
-  // Whether particles diffuse through a face.
+  // Whether particles diffuse through a face by themselves.
   [[nodiscard]] bool diffuses(int face) const;
+  // kg/s of gas, that eddies exchange through a face.
+  [[nodiscard]] double stirredThrough(const Gas& gas, int face) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
   [[nodiscard]] static Size sizeOf(double volume, double d, double primaries);
   [[nodiscard]] double sumChances(const Size& size, const std::vector<Side>& sides, SideValues& upTo) const;

@@ -103,10 +103,8 @@ void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<d
         bounds[node] += side.mostToWall(k, node, perSquare);
         continue;
       }
-      bounds[node] += side.convected[k];
-      if (side.diffuses)
-        bounds[node] += side.diffused[k] * perSquare *
-                        std::max(side.diffusion[node], side.diffusion[std::min(node + 1, nodes - 1)]);
+      const double most = std::max(side.diffusion[node], side.diffusion[std::min(node + 1, nodes - 1)]);
+      bounds[node] += side.convected[k] + side.diffused[k] * (side.stirred + perSquare * most);
     }
   }
 }

@@ -48,25 +48,30 @@ inline int EnsembleTransport::classOf(double volume) {
 struct EnsembleTransport::Side {
   int face = 0, beyond = -1;                // the cell on the other side, or -1
   std::array<double, classes> convected{};  // probability to go with the gas
-  std::array<double, classes> diffused{};   // factor of `diffusion`: o
+  std::array<double, classes> diffused{};   // factor of `diffusion` and of `stirred`: o
   std::array<double, nodes> diffusion{};    // times d^2, m2: at the nodes
   bool diffuses = false;
+  double stirred = 0.0;  // probability to go with the eddies
   // A wall that takes particles: `drift` is the probability to drift to it with the value of the cell, or below zero;
   // `convected` how much more of it particles have that follow the slope in the cell.
   bool isWall = false;
   double drift = 0.0;
+  double eddies = 0.0;  // before its layer: resistance of the eddies, over a probability
   std::array<bool, classes> isLimited{};  // whether convected or diffused is
 
   // To a wall: of a particle of that volume and class, and no less than that of any up to the next node.
   [[nodiscard]] double toWall(int k, const Between& at, double perSquare) const {
     const double through =
         diffuses ? perSquare * (diffusion[at.node] + at.part * (diffusion[at.node + 1] - diffusion[at.node])) : 0.0;
-    return takenByWall(drift, through) + outsideWallLayer(drift, through) * convected[k];
+    const double taken = takenByWall(drift, through);
+    return eddies > 0.0 ? taken * behindEddies(taken, eddies)
+                        : taken + outsideWallLayer(drift, through) * convected[k];
   }
   [[nodiscard]] double mostToWall(int k, std::size_t node, double perSquare) const {
     const double through =
         diffuses ? perSquare * std::max(diffusion[node], diffusion[std::min(node + 1, nodes - 1)]) : 0.0;
-    return takenByWall(drift, through) + std::max(convected[k], 0.0);
+    const double taken = takenByWall(drift, through);
+    return eddies > 0.0 ? taken * behindEddies(taken, eddies) : taken + std::max(convected[k], 0.0);
   }
 };
 
@@ -75,6 +80,7 @@ struct EnsembleTransport::SideLanes {
   using Lanes = SideValues;
   std::array<Lanes, classes> convected{}, diffused{};
   std::array<Lanes, nodes> diffusion{};
+  Lanes stirred{};
   bool hasWall = false;
 
   void set(const std::vector<Side>& sides) {
@@ -82,7 +88,8 @@ struct EnsembleTransport::SideLanes {
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const Side& side = sides[s];
       for (std::size_t k = 0; k < classes; ++k) convected[k][s] = side.convected[k];
-      for (std::size_t k = 0; k < classes; ++k) diffused[k][s] = side.diffuses ? side.diffused[k] : 0.0;
+      for (std::size_t k = 0; k < classes; ++k) diffused[k][s] = side.diffused[k];
+      stirred[s] = side.stirred;
       for (std::size_t node = 0; node < nodes; ++node) diffusion[node][s] = side.diffusion[node];
     }
   }
@@ -92,7 +99,7 @@ struct EnsembleTransport::SideLanes {
     const Lanes &gas = convected[size.ofClass], &own = diffused[size.ofClass];
     Lanes all;
     for (std::size_t s = 0; s < all.size(); ++s)
-      all[s] = gas[s] + own[s] * size.perSquare * (low[s] + size.at.part * (high[s] - low[s]));
+      all[s] = gas[s] + own[s] * (stirred[s] + size.perSquare * (low[s] + size.at.part * (high[s] - low[s])));
     return all;
   }
 };

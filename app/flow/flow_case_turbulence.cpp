@@ -177,8 +177,6 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
   turbulence.ignoresWalls = deck.choice("turbulence.wall_distance") == "infinite";
   turbulence.mostRatio = deck.number("turbulence.largest_eddy_viscosity_ratio");
   turbulence.numbers = {deck.number("turbulence.prandtl"), deck.number("turbulence.schmidt")};
-  if (flowCase.ensembles)
-    throw deck.error("turbulence.model", "ensembles in the cells do not know how eddies mix them; expected none");
   if (flowCase.swirls)
     throw deck.error("turbulence.model", "the models do not know the strain of a flow that swirls; expected none");
   if (turbulence.model->needsWallDistance() && !turbulence.ignoresWalls &&

@@ -27,6 +27,12 @@ namespace lampblack::flow {
   return -w / std::expm1(-ratio);
 }
 
+// What eddies between the place where c is known and that layer leave of J, as a factor on both of its parts: `taken` is
+// takenByWall() of the layer, kg/s, and the resistance of the eddies in s/kg.
+[[nodiscard]] inline double behindEddies(double taken, double resistance) {
+  return 1.0 / (1.0 + taken * resistance);
+}
+
 // Which share of the change of c over that distance, outside of the layer in which they diffuse, the drift sees: 1
 // where it rules, 0 where diffusion does, or where it leads away from the wall.
 [[nodiscard]] inline double outsideWallLayer(double w, double g) {

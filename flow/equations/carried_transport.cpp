@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "flow/boundaries/wall_flux.hpp"
-#include "flow/boundaries/wall_law.hpp"
 #include "flow/discretisation/face_fluxes.hpp"
+#include "flow/properties/wall_transfer.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -38,20 +38,20 @@ void CarriedTransport::findDrift(const Gas& gas) {
     driftFlux_[face] = hasDriftToWall(gas.faces, face) ? driftToWall(gas, face) : 0.0;
 }
 
-// -A mu (grad T . n)/T at a wall, by the heat that it takes: viscosity over conductivity hardly changes with the
-// temperature.
+// -A mu (grad T . n)/T at the end of the layer ruled by molecules at a wall, by the heat that the wall takes: viscosity
+// over conductivity hardly changes with the temperature.
 double CarriedTransport::driftToWall(const Gas& gas, int face) const {
   const Mesh& m = context_.mesh;
   const int b = face - m.interiorFaces;
-  const double conductivity = gas.properties.boundaryConductivity[b];
+  const double conductivity = gas.properties.boundaryConductivity[b], inCell = gas.mean.temperature[m.low[face]];
   double T = context_.boundaryTemperature(face);
   if (!context_.isTemperatureGiven(face))
-    T = gas.mean.temperature[m.low[face]] -
-        gas.heat[face] / m.area[face] * m.distance[face] / gas.properties.effectiveBoundaryConductivity()[b];
+    T = inCell - gas.heat[face] / m.area[face] * m.distance[face] / gas.properties.effectiveBoundaryConductivity()[b];
+  T += (inCell - T) * (1.0 - eddiesToWall(context_, gas.mean, gas.properties, face).ofHeat);
   return gas.properties.boundaryViscosity[b] / conductivity * gas.heat[face] / T;
 }
 
-// kg/s of gas: the conductance of diffusion to a wall or an inlet.
+// kg/s of gas: the conductance of diffusion to a wall, of its layer ruled by molecules, or to an inlet.
 double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties,
                                        int face, int scalar) const {
   const Mesh& m = context_.mesh;
@@ -60,15 +60,8 @@ double CarriedTransport::wallDiffusion(const State& state, const FaceState& face
   if (share > 0.0 && context_.boundaryOf(face).kind == BoundaryKind::Wall)
     return metric * share * properties.boundaryViscosity[face - m.interiorFaces];
   const double D = state.carriedDiffusivity[m.low[face] * state.carriedCount() + scalar];
-  if (state.wallEnergy >= 0 && state.scalars[scalar].isStirred && D > 0.0 && context_.boundaryOf(face).isNoSlipWall()) {
-    const auto cell = static_cast<std::size_t>(m.low[face]);
-    const double viscosity = properties.boundaryViscosity[face - m.interiorFaces];
-    const double exchange = walllaw::exchange(state, cell, m.distance[face]);
-    if (exchange > 0.0)
-      return metric * exchange /
-             walllaw::scalar(exchange / viscosity, viscosity / (state.density[cell] * D), context_.eddies.schmidt);
-  }
-  return faces.density[face] * metric * D;
+  if (!state.scalars[scalar].isStirred) return faces.density[face] * metric * D;
+  return conductanceToWall(context_, state, properties, face, faces.density[face], D);
 }
 
 const std::vector<double>& CarriedTransport::diffusivities(const State& state) const {
@@ -100,13 +93,16 @@ void CarriedTransport::convectiveFlux(const State& state, const Gas& gas) {
         for (int s = 0; s < n; ++s) flux[s] = gasFlux * gas.mean.carried[low * n + s] / gas.mean.density[low];
       if (gasFlux < 0.0)
         for (int s = 0; s < n; ++s) flux[s] = gasFlux * given[s].value;
-      if (gas.faces.carriedBoundaries().holdsAny(face) && context_.boundaryOf(face).kind == BoundaryKind::Wall)
-        for (int s = 0; s < n; ++s) {  // nothing flows through these
-          if (!given[s].isHeld) continue;
+      if (gas.faces.carriedBoundaries().holdsAny(face) && context_.boundaryOf(face).kind == BoundaryKind::Wall) {
+        // Nothing flows through these. What eddies mix does not follow the slope in the cell.
+        const bool hasEddies = eddiesToWall(context_, gas.mean, gas.properties, face).resistance > 0.0;
+        for (int s = 0; s < n; ++s) {
+          if (!given[s].isHeld || (hasEddies && state.scalars[s].isStirred)) continue;
           const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
           const double share = outsideWallLayer(drift, wallDiffusion(state, gas.faces, gas.properties, face, s));
           if (share > 0.0) flux[s] = drift * share * gas.faces.carriedRiseToWall(face, s);
         }
+      }
       continue;
     }
     const double gasFlux = gas.faces.density[face] * m.area[face] * gas.faceVelocity[face];
@@ -152,15 +148,18 @@ void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces,
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     if (!faces.carriedBoundaries().holdsAny(face) || m.area[face] <= 0.0) continue;
     const std::span<const ScalarBoundary> given = faces.carriedBoundaries().at(face);
+    const double eddies = eddiesToWall(context_, state, properties, face).resistance;
     for (int s = 0; s < n; ++s) {
       if (!given[s].isHeld) continue;
       const int i = m.low[face] * n + s;
       const double drift = state.scalars[s].thermophoresis * driftFlux_[face];
       const double diffusion = wallDiffusion(state, faces, properties, face, s);
+      const double taken = takenByWall(drift, diffusion);
+      const double passes = state.scalars[s].isStirred ? behindEddies(taken, eddies) : 1.0;
       double& g = conductance[face * n + s];
-      g = takenByWall(drift, diffusion);
+      g = taken * passes;
       flux[face * n + s] =
-          g * state.carried[i] / state.density[m.low[face]] - takenByWall(-drift, diffusion) * given[s].value;
+          g * state.carried[i] / state.density[m.low[face]] - takenByWall(-drift, diffusion) * passes * given[s].value;
     }
   }
   for (int face = 0; face < m.interiorFaces; ++face) {

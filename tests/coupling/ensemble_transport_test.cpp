@@ -102,6 +102,7 @@ std::vector<double> fieldAfter(const Moving& m, std::vector<double> field, doubl
 struct Motion {
   std::string name;
   bool turns, drifts, diffuses, walls = false;
+  double eddies = 0.0;  // m2/s
 };
 void PrintTo(const Motion& motion, std::ostream* out) {
   *out << motion.name;
@@ -111,7 +112,9 @@ class MeanOfParticles : public testing::TestWithParam<Motion> {};
 INSTANTIATE_TEST_SUITE_P(Motions, MeanOfParticles,
                          testing::Values(Motion{"convection", true, false, false}, Motion{"drift", false, true, false},
                                          Motion{"diffusion", false, false, true}, Motion{"all", true, true, true},
-                                         Motion{"allWithWalls", true, true, true, true}),
+                                         Motion{"allWithWalls", true, true, true, true},
+                                         Motion{"eddies", false, false, false, false, 5e-4},
+                                         Motion{"allWithEddies", true, true, true, false, 5e-4}),
                          [](const auto& info) { return info.param.name; });
 
 TEST_P(MeanOfParticles, IsTheFiniteVolumeField) {
@@ -125,13 +128,15 @@ TEST_P(MeanOfParticles, IsTheFiniteVolumeField) {
         cells, motion.turns ? vortex : [](const Vector3&) { return Vector3{}; });
     if (motion.drifts) m.driftAt(motion.walls ? 0.1 : 0.8);
     if (motion.walls) m.letWallsTake();
+    if (motion.eddies > 0.0)
+      m.state.eddyViscosity.assign(m.state.density.size(), motion.eddies * m.state.density[0] * 0.9);
     m.fill(40, hill, 0.0);
     EnsembleTransport transport = m.transport(motion.diffuses, 1000 + static_cast<std::uint64_t>(r));
     if (expected.empty()) {
       std::vector<double> field(at(m.box.mesh.cells));
       for (int c = 0; c < m.box.mesh.owned; ++c) field[at(c)] = m.moment(c, 0.0);
       const CarrierGas gas{1500.0, constants::oneAtmosphere, m.state.density[0], 5e-5, 0.028};
-      expected = fieldAfter(m, field, dt, motion.diffuses ? brownianDiffusivity(gas, d) : 0.0, steps);
+      expected = fieldAfter(m, field, dt, (motion.diffuses ? brownianDiffusivity(gas, d) : 0.0) + motion.eddies, steps);
     }
     for (int s = 0; s < steps; ++s) m.step(transport, dt, static_cast<std::uint64_t>(s));
     std::vector<double> values;
@@ -229,7 +234,7 @@ TEST(EnsembleTransport, DiffusesByTheDiameterOfMobility) {
         packDoubles(m.populations[at(c)], GivenParticle{primaries * massOf(d), 0.0, primaries, 1e10});
     }
     EnsembleTransport transport = m.transport(true, 5);
-    transport.advance({m.state, m.drift, m.density, m.viscosity, m.weight}, 2 * share * h * h / (4 * D), 0,
+    transport.advance({m.state, m.drift, m.density, m.properties}, 2 * share * h * h / (4 * D), 0,
                       EnsembleTransport::Half::First, m.populations, m.arrived);
     EXPECT_EQ(transport.parts(), 1);
     for (int c = 0; c < m.box.mesh.owned; ++c)

@@ -31,8 +31,6 @@ struct Moving {
         })),
         drift(at(box.mesh.faces)),
         density(at(box.mesh.faces), state.density[0]),
-        viscosity(at(box.mesh.cells), 5e-5),
-        weight(at(box.mesh.cells), 0.028),
         populations(at(box.mesh.owned)),
         arrived(populations.size()) {
     const Mesh& m = box.mesh;
@@ -40,6 +38,8 @@ struct Moving {
       state.massFlux[at(face)] =
           state.density[0] * m.area[at(face)] * dot(velocity(m.faceCentre[at(face)]), m.normal[at(face)]);
     state.keepStart();
+    properties.viscosity.assign(at(m.cells), 5e-5);
+    properties.molecularWeight.assign(at(m.cells), 0.028);
   }
 
   void letWallsTake() {
@@ -64,7 +64,7 @@ struct Moving {
   void step(EnsembleTransport& transport, double dt, std::uint64_t number) {
     for (auto& rows : arrived) rows.clear();
     for (const auto half : {EnsembleTransport::Half::First, EnsembleTransport::Half::Second})
-      transport.advance({state, drift, density, viscosity, weight}, dt, number, half, populations, arrived);
+      transport.advance({state, drift, density, properties}, dt, number, half, populations, arrived);
     for (std::size_t c = 0; c < populations.size(); ++c)
       populations[c].insert(populations[c].end(), arrived[c].begin(), arrived[c].end());
   }
@@ -84,7 +84,8 @@ struct Moving {
 
   Box box;
   State state;
-  std::vector<double> drift, density, viscosity, weight;
+  std::vector<double> drift, density;
+  GasProperties properties;
   std::vector<EnsembleTransport::Rows> populations, arrived;
 };
 

@@ -195,6 +195,55 @@ TEST(WallLaw, WallsTakeDustByItsSchmidtNumber) {
   }
 }
 
+// What of a resistance is that of eddies: the rest behind where the curves of both layers meet, found here by halving.
+TEST(WallLaw, EddiesResistBeyondTheLayerOfMolecules) {
+  for (const auto& [number, turbulent] : {std::pair{0.71, 0.9}, std::pair{0.71, 0.7}, std::pair{3.0, 0.9}}) {
+    SCOPED_TRACE(number);
+    const auto logarithmic = [number = number, turbulent = turbulent](double yStar) {
+      return turbulent * (std::log(9.8 * yStar) / 0.41 + walllaw::sublayerResistance(number / turbulent));
+    };
+    double low = 2.0 * turbulent / (0.41 * number), high = 100.0;
+    for (int i = 0; i < 100; ++i) {
+      const double middle = 0.5 * (low + high);
+      (number * middle > logarithmic(middle) ? high : low) = middle;
+    }
+    EXPECT_EQ(walllaw::eddyPart(0.999 * low, number, turbulent), 0.0);
+    EXPECT_NEAR(walllaw::eddyPart(low * (1.0 + 1e-9), number, turbulent), 0.0, 1e-7);
+    for (const double yStar : {1.5 * low, 60.0, 1000.0})
+      EXPECT_NEAR(walllaw::eddyPart(yStar, number, turbulent), logarithmic(yStar) - number * low, 1e-8) << yStar;
+  }
+}
+
+// Dust that drifts and does not diffuse: through the layer of molecules, at whose end it has the temperature T, passes
+// K (Pr q/c_p) c/T, and as much through the eddies, by the difference of c.
+TEST(WallLaw, DustDriftsToAWallBehindEddies) {
+  constexpr double K = 0.6;
+  Corner corner(0.5);
+  const Mesh& m = corner.box.mesh;
+  corner.state.scalars[0].thermophoresis = K;
+  for (int c = 0; c < m.cells; ++c) {
+    corner.state.carried[at(3 * c)] = 2.0 * corner.state.density[at(c)];
+    corner.state.carriedDiffusivity[at(3 * c)] = 0.0;
+  }
+  FlowResidual residual(corner.box.context, corner.state, VelocityScheme::Limited, {});
+  residual.evaluate(corner.state);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (corner.box.context.boundaryOf(face).kind != BoundaryKind::Wall) continue;
+    const GasProperties& of = residual.properties();
+    const auto b = at(face - m.interiorFaces), c = at(m.low[face]);
+    const double rho = corner.state.density[c], viscosity = of.boundaryViscosity[b];
+    const double yStar = rho * std::pow(0.09, 0.25) * std::sqrt(0.5) * m.distance[face] / viscosity;
+    const double prandtl = viscosity * of.heatCapacity[c] / of.boundaryConductivity[b];
+    const double heat = of.effectiveBoundaryConductivity()[b] * 20.0 / m.distance[face] / of.heatCapacity[c];
+    const double rise = 20.0 * walllaw::eddyPart(yStar, prandtl, 0.85) / walllaw::scalar(yStar, prandtl, 0.85);
+    EXPECT_GT(rise, 5.0);
+    // heat = (rho u*/R) rise; dust: (rho u*/(R 0.7/0.85)) (2 - c_s) = K Pr heat c_s/T.
+    const double T = 320.0 - rise, inLayer = K * prandtl * heat / T, inEddies = heat / rise / (0.7 / 0.85);
+    const double expected = m.area[face] * 2.0 * inLayer * inEddies / (inLayer + inEddies);
+    EXPECT_NEAR(residual.carried().flux()[at(face) * 3] / expected, 1.0, 1e-9);
+  }
+}
+
 // Friction, y+ and heat of each face of a wall: of gas at 320 K along one at 300 K.
 TEST(WallLaw, WallsTellEachFace) {
   Corner corner(0.5);
