@@ -68,12 +68,15 @@ void TransportOperator::adopt(const State& state) {
     faces_.interpolate(state, face, state.massFlux[face], row_);
     faceVelocity_[face] = m.area[face] > 0.0 ? state.massFlux[face] / (faces_.density[face] * m.area[face]) : 0.0;
   }
-  if (!state.scalars.empty()) {
-    std::vector<double> flux(carried_.flux().size());
-    carried_.presentFlux(
-        state, {state, state, properties_.viscosity, faces_, faceVelocity_, {}, properties_, heat_.heat}, flux);
-  }
+  findCarriedFlux(state);
   recordBoundary(state, 0.0);
+}
+
+void TransportOperator::findCarriedFlux(const State& state) {
+  if (state.scalars.empty()) return;
+  std::vector<double> flux(carried_.flux().size());
+  carried_.presentFlux(state, {state, state, properties_.viscosity, faces_, faceVelocity_, {}, properties_, heat_.heat},
+                       flux);
 }
 
 void TransportOperator::initialise(State& state, double dt) {
@@ -96,6 +99,7 @@ void TransportOperator::initialise(State& state, double dt) {
     faces_.interpolate(state, face, faceVelocity_[face], row_);
     state.massFlux[face] = faces_.density[face] * faceVelocity_[face] * m.area[face];
   }
+  findCarriedFlux(state);
 }
 
 void TransportOperator::keepStart(const State& state) {

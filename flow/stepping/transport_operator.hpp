@@ -122,6 +122,7 @@ class TransportOperator : public Operator {
 
  private:
   void evaluateDiffusion(const State& state);
+  void findCarriedFlux(const State& state);  // and the drift, of the properties and faces as they are
   void keepBoundaryFlux(int face, std::span<const double> row);
   void coupleReactions(const State& mean, State& state, double time, double dt);
   void markCoupled();
