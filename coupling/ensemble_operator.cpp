@@ -201,8 +201,8 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
 }
 
 void EnsembleOperator::move(const State& state, double dt, EnsembleTransport::Half half) {
-  transport_.advance(
-      {state, flow_.driftFlux(), flow_.faceDensity(), flow_.properties()}, dt, static_cast<std::uint64_t>(steps_), half, populations_, arrived_);
+  transport_.advance({state, flow_.driftFlux(), flow_.faceDensity(), flow_.properties()}, dt,
+                     static_cast<std::uint64_t>(steps_), half, populations_, arrived_);
 }
 
 void EnsembleOperator::separateArrivals() {

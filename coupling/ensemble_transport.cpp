@@ -124,8 +124,8 @@ void EnsembleTransport::findWallDiffusion(const Gas& gas, int cell, double share
   for (std::size_t node = 0; node < nodes; ++node) {
     const double perSquare = nodes_[node].perSquare;
     side.diffusion[node] = share / perSquare *
-                           conductanceToWall(context_, gas.state, gas.properties, side.face,
-                                             gas.faceDensity[side.face], here[node] * perSquare);
+                           conductanceToWall(context_, gas.state, gas.properties, side.face, gas.faceDensity[side.face],
+                                             here[node] * perSquare);
   }
 }
 

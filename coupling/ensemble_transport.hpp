@@ -4,16 +4,17 @@
 //
 // Through a face, a particle of the cell `d` with the gas mass M_d at the step's start goes in dt with the probability
 //
-//   p = dt/M_d [ max(m, 0) r + G(D + D_t) o ],   m = gas's mass flux out of d + thermophoresis, G = rho_f A D / distance,
+//   p = dt/M_d [ max(m, 0) r + G(D + D_t) o ],   m = gas's mass flux out of d + thermophoresis, G = rho_f A D /
+//   distance,
 //
 // as carried scalars do: by upwind convection with the value at the face over that in the cell (r), and by diffusion
-// both ways, in a turbulent flow with that of the eddies D_t, which is the same for all. A wall that takes particles has
-// the flux of drift and diffusion to it (flow/boundaries/wall_flux.hpp, flow/properties/wall_transfer.hpp), each particle
-// by its own diffusivity. r is of second order in place and time: linear in the cell, by the gradient of
-// the particles of like size per mass of gas, at the place from which the gas reaches the face in the middle of the
-// time; it is limited to between 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter
-// of slopes would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face.
-// Like sizes: volumes within a factor of eight.
+// both ways, in a turbulent flow with that of the eddies D_t, which is the same for all. A wall that takes particles
+// has the flux of drift and diffusion to it (flow/boundaries/wall_flux.hpp, flow/properties/wall_transfer.hpp), each
+// particle by its own diffusivity. r is of second order in place and time: linear in the cell, by the gradient of the
+// particles of like size per mass of gas, at the place from which the gas reaches the face in the middle of the time;
+// it is limited to between 0 and 2, which no face value of a smooth field exceeds, and to nothing else: a limiter of
+// slopes would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like
+// sizes: volumes within a factor of eight.
 //
 // Who goes is drawn by two random numbers of the cell and part of the step: results do not depend on ranks. Particles
 // of a cell are put in order of size once in a half of a step; in each part the teeth of a comb, as far from one

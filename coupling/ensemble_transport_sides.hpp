@@ -56,7 +56,7 @@ struct EnsembleTransport::Side {
   // `convected` how much more of it particles have that follow the slope in the cell.
   bool isWall = false;
   double drift = 0.0;
-  double eddies = 0.0;  // before its layer: resistance of the eddies, over a probability
+  double eddies = 0.0;                    // before its layer: resistance of the eddies, over a probability
   std::array<bool, classes> isLimited{};  // whether convected or diffused is
 
   // To a wall: of a particle of that volume and class, and no less than that of any up to the next node.
@@ -64,8 +64,7 @@ struct EnsembleTransport::Side {
     const double through =
         diffuses ? perSquare * (diffusion[at.node] + at.part * (diffusion[at.node + 1] - diffusion[at.node])) : 0.0;
     const double taken = takenByWall(drift, through);
-    return eddies > 0.0 ? taken * behindEddies(taken, eddies)
-                        : taken + outsideWallLayer(drift, through) * convected[k];
+    return eddies > 0.0 ? taken * behindEddies(taken, eddies) : taken + outsideWallLayer(drift, through) * convected[k];
   }
   [[nodiscard]] double mostToWall(int k, std::size_t node, double perSquare) const {
     const double through =

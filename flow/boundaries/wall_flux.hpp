@@ -27,8 +27,8 @@ namespace lampblack::flow {
   return -w / std::expm1(-ratio);
 }
 
-// What eddies between the place where c is known and that layer leave of J, as a factor on both of its parts: `taken` is
-// takenByWall() of the layer, kg/s, and the resistance of the eddies in s/kg.
+// What eddies between the place where c is known and that layer leave of J, as a factor on both of its parts: `taken`
+// is takenByWall() of the layer, kg/s, and the resistance of the eddies in s/kg.
 [[nodiscard]] inline double behindEddies(double taken, double resistance) {
   return 1.0 / (1.0 + taken * resistance);
 }

@@ -38,7 +38,7 @@ void CarriedTransport::findDrift(const Gas& gas) {
     driftFlux_[face] = hasDriftToWall(gas.faces, face) ? driftToWall(gas, face) : 0.0;
 }
 
-// -A mu (grad T . n)/T at the end of the layer ruled by molecules at a wall, by the heat that the wall takes: viscosity
+// -A mu (grad T . n)/T at the end of the still layer at a wall, by the heat that the wall takes: viscosity
 // over conductivity hardly changes with the temperature.
 double CarriedTransport::driftToWall(const Gas& gas, int face) const {
   const Mesh& m = context_.mesh;
@@ -51,7 +51,7 @@ double CarriedTransport::driftToWall(const Gas& gas, int face) const {
   return gas.properties.boundaryViscosity[b] / conductivity * gas.heat[face] / T;
 }
 
-// kg/s of gas: the conductance of diffusion to a wall, of its layer ruled by molecules, or to an inlet.
+// kg/s of gas: the conductance of diffusion to a wall, of its still layer, or to an inlet.
 double CarriedTransport::wallDiffusion(const State& state, const FaceState& faces, const GasProperties& properties,
                                        int face, int scalar) const {
   const Mesh& m = context_.mesh;

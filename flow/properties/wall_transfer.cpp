@@ -36,9 +36,9 @@ double conductanceToWall(const FlowContext& context, const State& state, const G
   if (!(exchange > 0.0)) return viscous;
   const auto cell = static_cast<std::size_t>(m.low[face]);
   const double viscosity = properties.boundaryViscosity[face - m.interiorFaces];
-  const double all = walllaw::scalar(exchange / viscosity, viscosity / (state.density[cell] * D),
-                                     context.eddies.schmidt) /
-                     (metric * exchange);
+  const double all =
+      walllaw::scalar(exchange / viscosity, viscosity / (state.density[cell] * D), context.eddies.schmidt) /
+      (metric * exchange);
   // Eddies are less than all: what conducts heat well enough to have them diffuses more than any particle.
   const double layer = all - eddiesToWall(context, state, properties, face).resistance;
   constexpr double least = 1e-3;

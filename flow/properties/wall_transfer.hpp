@@ -1,7 +1,8 @@
-// How particles and other carried scalars come from the centre of a cell to a wall that the gas sticks to. Where the law
-// of the wall stands for what is between (flow/boundaries/wall_law.hpp), there are two ways, one behind the other: first
-// eddies bring them to the layer ruled by molecules, with no drift to speak of, then they drift and diffuse through that
-// (flow/boundaries/wall_flux.hpp). Elsewhere there is the second alone. docs/theory/turbulence.md, "Wall functions".
+// How particles and other carried scalars come from the centre of a cell to a wall that the gas sticks to. Where the
+// law of the wall stands for what is between (flow/boundaries/wall_law.hpp), there are two ways, one behind the other:
+// first eddies bring them to a still layer, with no drift to speak of, then they drift and diffuse through that
+// (flow/boundaries/wall_flux.hpp). Elsewhere there is the second alone. docs/theory/turbulence.md, "Wall
+// functions".
 #pragma once
 
 #include "core/modules.hpp"
@@ -20,7 +21,7 @@ struct WallEddies {
 [[nodiscard]] WallEddies eddiesToWall(const FlowContext& context, const State& state, const GasProperties& properties,
                                       int face);
 
-// kg/s of gas: the conductance for diffusion through the layer ruled by molecules, of a scalar of diffusivity `D`
+// kg/s of gas: the conductance for diffusion through the still layer, of a scalar of diffusivity `D`
 // (m^2/s). `density`: at the face, kg/m^3.
 [[nodiscard]] double conductanceToWall(const FlowContext& context, const State& state, const GasProperties& properties,
                                        int face, double density, double D);

@@ -1,4 +1,5 @@
-// Ensembles in a turbulent gas: what is evenly mixed stays so, and walls take what comes through the eddies beside them.
+// Ensembles in a turbulent gas: what is evenly mixed stays so, and walls take what comes through the eddies beside
+// them.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -63,10 +64,11 @@ TEST(EnsembleEddies, WallsTakeWhatComesThroughThem) {
     m.state.keepStart();
     for (int face = mesh.interiorFaces; face < mesh.faces; ++face)
       m.drift[at(face)] = m.state.density[0] * mesh.area[at(face)] * 6.0;
-    m.fill(20000, [](const Vector3&) { return 1e16; }, 0.0);
+    m.fill(
+        20000, [](const Vector3&) { return 1e16; }, 0.0);
     EnsembleTransport transport = m.transport(diffuses, 5);
-    transport.advance({m.state, m.drift, m.density, m.properties}, dt, 0, EnsembleTransport::Half::First,
-                      m.populations, m.arrived);
+    transport.advance({m.state, m.drift, m.density, m.properties}, dt, 0, EnsembleTransport::Half::First, m.populations,
+                      m.arrived);
     EXPECT_EQ(transport.parts(), 1);
     const CarrierGas gas{1500.0, constants::oneAtmosphere, m.state.density[0], 5e-5, 0.028};
     const double D = diffuses ? brownianDiffusivity(gas, 2e-9) : 0.0;
@@ -74,8 +76,7 @@ TEST(EnsembleEddies, WallsTakeWhatComesThroughThem) {
     for (int face = mesh.interiorFaces; face < mesh.faces; ++face) {
       const auto c = at(mesh.low[at(face)]);
       const double eddies = eddiesToWall(m.box.context, m.state, m.properties, face).resistance;
-      const double layer =
-          conductanceToWall(m.box.context, m.state, m.properties, face, m.density[at(face)], D);
+      const double layer = conductanceToWall(m.box.context, m.state, m.properties, face, m.density[at(face)], D);
       EXPECT_GT(eddies * 0.55 * m.drift[at(face)], 0.05);
       const double passes = 1.0 / (1.0 / takenByWall(0.55 * m.drift[at(face)], layer) + eddies);
       expected[c] += 0.5 * dt * passes / (mesh.volume[c] * m.state.density[c]);

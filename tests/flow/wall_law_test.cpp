@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <memory>
+#include <tuple>
 
 #include "flow/discretisation/velocity_gradient.hpp"
 #include "flow/equations/flow_residual.hpp"
@@ -195,26 +196,43 @@ TEST(WallLaw, WallsTakeDustByItsSchmidtNumber) {
   }
 }
 
-// What of a resistance is that of eddies: the rest behind where the curves of both layers meet, found here by halving.
-TEST(WallLaw, EddiesResistBeyondTheLayerOfMolecules) {
-  for (const auto& [number, turbulent] : {std::pair{0.71, 0.9}, std::pair{0.71, 0.7}, std::pair{3.0, 0.9}}) {
-    SCOPED_TRACE(number);
-    const auto logarithmic = [number = number, turbulent = turbulent](double yStar) {
-      return turbulent * (std::log(9.8 * yStar) / 0.41 + walllaw::sublayerResistance(number / turbulent));
+// What of a resistance is that of eddies: all but that of molecules up to y* 3.4, where the eddies of van Driest's
+// mixing length mix as much as a drift of 0.01 carries.
+TEST(WallLaw, EddiesResistBeyondTheStillLayer) {
+  const double length = 0.41 * walllaw::still * (1.0 - std::exp(-walllaw::still / 26.0));
+  EXPECT_NEAR(length * length / (0.01 * walllaw::still), 1.0, 0.2);
+  EXPECT_EQ(walllaw::eddyPart(3.3, 0.71, 0.9), 0.0);
+  EXPECT_NEAR(walllaw::eddyPart(10.0, 0.71, 0.9), 0.71 * 6.6, 1e-12);
+  EXPECT_NEAR(walllaw::eddyPart(100.0, 0.71, 0.9), 0.9 * (16.798909 - 1.924682) - 0.71 * 3.4, 1e-5);
+}
+
+// Particles that drift and do not diffuse, in a layer of constant fluxes with the eddies of van Driest's mixing length,
+// marched from the wall: J over (q/c_p) c_P against what the still layer and the eddies behind it make of it.
+TEST(WallLaw, TheStillLayerIsThatOfVanDriestsEddies) {
+  for (const auto& [wall, gas, most] :
+       {std::tuple{300.0, 450.0, 0.006}, std::tuple{300.0, 560.0, 0.02}, std::tuple{600.0, 700.0, 0.006}}) {
+    constexpr double m = 0.54 * 0.71, yStar = 60.0, step = 0.002;
+    constexpr int steps = 30000;
+    const auto mixes = [](double y) {  // heat by eddies over that by molecules
+      const double length = 0.41 * y * (1.0 - std::exp(-y / 26.0));
+      return 0.71 / 0.9 * 0.5 * (std::sqrt(1.0 + 4.0 * length * length) - 1.0);
     };
-    double low = 2.0 * turbulent / (0.41 * number), high = 100.0;
-    for (int i = 0; i < 100; ++i) {
-      const double middle = 0.5 * (low + high);
-      (number * middle > logarithmic(middle) ? high : low) = middle;
+    double plus = 0.0;  // T+
+    for (int i = 0; i < steps; ++i) plus += 0.71 * step / (1.0 + mixes((i + 0.5) * step));
+    double T = wall, c = wall / m;  // per J c_p/q
+    for (int i = 0; i < steps; ++i) {
+      const double eddies = mixes((i + 0.5) * step), share = eddies / (1.0 + eddies);
+      const double rise = (gas - wall) * 0.71 * step / (1.0 + eddies) / plus;
+      T += rise;
+      c = (1.0 + share * c / rise) / (share / rise + m * (1.0 - share) / T);
     }
-    EXPECT_EQ(walllaw::eddyPart(0.999 * low, number, turbulent), 0.0);
-    EXPECT_NEAR(walllaw::eddyPart(low * (1.0 + 1e-9), number, turbulent), 0.0, 1e-7);
-    for (const double yStar : {1.5 * low, 60.0, 1000.0})
-      EXPECT_NEAR(walllaw::eddyPart(yStar, number, turbulent), logarithmic(yStar) - number * low, 1e-8) << yStar;
+    const double T_s = wall + (gas - wall) * 0.71 * walllaw::still / plus;
+    EXPECT_NEAR(c / (T_s / m + gas - T_s), 1.0, most) << gas;
+    EXPECT_NEAR(plus / walllaw::scalar(yStar, 0.71, 0.9), 1.0, 0.03);
   }
 }
 
-// Dust that drifts and does not diffuse: through the layer of molecules, at whose end it has the temperature T, passes
+// Dust that drifts and does not diffuse: through the still layer, at whose end it has the temperature T, passes
 // K (Pr q/c_p) c/T, and as much through the eddies, by the difference of c.
 TEST(WallLaw, DustDriftsToAWallBehindEddies) {
   constexpr double K = 0.6;

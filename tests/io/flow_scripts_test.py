@@ -1,5 +1,5 @@
 """What scripts/mesh_to_gmsh writes of a run's box, and what scripts/compare_flows says of two runs, scripts/compare_santoro,
-compare_turbulent_step, compare_wall_friction, compare_round_jet and compare_sandia_d of some, on results written here."""
+compare_turbulent_step, compare_wall_friction, compare_round_jet, compare_pipe_deposition and compare_sandia_d of some, on results written here."""
 
 import json
 import pathlib
@@ -232,6 +232,47 @@ def check_wall_friction(folder):
     assert code == 2 and "nowhere" in err, err
 
 
+def check_pipe_deposition(folder):
+    """Soot of which a wall takes as much a length everywhere, in a stream whose temperature falls with the place; then as means of two halves of a time."""
+    speed, density, start, taken, comes = 20.0, 0.5, 0.2, 1e-6, 4e-6
+    deck = {"mesh": {"geometry": "axisymmetric", "r": [{"to": 0.05}]}, "particles": {"density": 1800},
+            "boundaries": {"cold": {"side": "r-max", "from": start, "temperature": 300}},
+            "transport": {"sutherland": {"viscosity": 1.68e-5, "temperature": 273, "constant": 110.5, "prandtl_number": 0.71}}}
+    for name, mean in (("steady", ""), ("means", "_mean")):
+        z = np.linspace(0, 1.2, 61)
+        run = write_run(folder / name, np.linspace(0, 0.05, 6), z, lambda r, z: 900 - 400 * z, deck)
+        with h5py.File(run / "results.h5", "r+") as file:
+            centres, step = file["mesh/cellCentre"][()], file["steps/000003"]
+            flows = comes - taken * np.maximum(centres[:, 1] - start, 0)
+            step["velocity"] = np.stack([0 * flows, 0 * flows + speed, 0 * flows], axis=1)
+            step["density"] = np.full(len(flows), density)
+            step["soot_volume_fraction" + mean] = flows / (1800 * speed * 0.05**2 / 2)
+            table, places = file.create_group("deposits/cold"), (z[10:-1] + z[11:]) / 2
+            area, times = 0.05 * np.diff(z[10:]), np.array([0.0, 1.0, 2.0, 3.0])
+            # What was there before the first mean counts no more than a rate of any step does there.
+            mass = np.array([0, 7, 8 - 0.1, 9]) if mean else 0 * times
+            for column, values in (("step", np.repeat(np.arange(4), 50)), ("time", np.repeat(times, 50)), ("z", np.tile(places, 4)),
+                                   ("area", np.tile(area, 4)), ("deposition", np.full(200, 0.0 if mean else taken / 0.05)),
+                                   ("deposited", np.repeat(mass * taken / 0.05, 50))):
+                table[column] = values
+        code, told, err = called("compare_pipe_deposition", run, "--at", 2, 8, "--json", "--picture", folder / "pipe.png")
+        assert code == 0 and (folder / "pipe.png").stat().st_size > 1000, err
+        found = json.loads(told)[name]
+        assert abs(found["soot"] / comes - 1) < 1e-9 and found["unlike"] < 1e-9 and abs(found["exponent"] - 0.71 * 0.75 / (1 + np.pi / 8)) < 1e-12, found
+        for row in found["at"]:
+            behind = row["diameters"] * 0.1
+            assert abs(row["share"] - taken * behind / comes) < 1e-9 and abs(row["temperature"] - (820 - 400 * behind)) < 1e-6, row
+            assert abs(row["run"] - (1 - ((820 - 400 * behind) / 820) ** found["exponent"])) < 1e-5 and 0 < row["law"] < row["run"], row
+            assert abs(row["half"] - (0.1 * row["share"] if mean else 0)) < 1e-9, row
+    # Dittus and Boelter's heat transfer is within a tenth of Gnielinski's: St 0.023 Re^-0.2 Pr^-0.6.
+    viscosity = 1.68e-5 * (780 / 273) ** 1.5 * 383.5 / 890.5
+    left = np.exp(-4 * 2 * 0.023 * (density * speed * 0.1 / viscosity) ** -0.2 * 0.71**-0.6)
+    row = found["at"][0]
+    assert abs((1 - row["law"]) ** (1 / found["exponent"]) * 820 - 300 - 520 * left) < 0.1 * 520 * (1 - left), row
+    code, _, err = called("compare_pipe_deposition", folder / "nowhere")
+    assert code == 2 and "nowhere" in err, err
+
+
 def check_round_jet(folder):
     """A jet that spreads by 0.1 from 4 diameters behind the orifice, whose axis decays by 5."""
     diameter, speed = 0.02, 30.0
@@ -281,6 +322,7 @@ with tempfile.TemporaryDirectory() as scratch:
     check_turbulent_step(pathlib.Path(scratch))
     check_wall_friction(pathlib.Path(scratch))
     check_round_jet(pathlib.Path(scratch))
+    check_pipe_deposition(pathlib.Path(scratch))
     check_santoro(pathlib.Path(scratch))
     check_mesh(pathlib.Path(scratch))
     check_comparison(pathlib.Path(scratch))
