@@ -81,6 +81,8 @@ typename Reactions::Sums TreeProcess::sums(const Reactions& reactions) const {
   method_.forEachParticle([&](const Tree& p, double weight) { reactions.add(all, p.head(), weight); });
   return all;
 }
+template TreeSites::Sums TreeProcess::sums(const TreeSites&) const;
+template TreeSoot::Sums TreeProcess::sums(const TreeSoot&) const;
 
 void TreeProcess::advance(const ParticleGas& gas, double dt) {
   if (!(dt > 0)) return;
