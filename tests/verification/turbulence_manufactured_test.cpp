@@ -30,6 +30,9 @@ class WithoutMomentum : public TurbulenceModel {
   [[nodiscard]] std::vector<Variable> variables() const override { return model_->variables(); }
   [[nodiscard]] bool needsWallDistance() const override { return model_->needsWallDistance(); }
   [[nodiscard]] bool needsStrainGradient() const override { return model_->needsStrainGradient(); }
+  [[nodiscard]] std::optional<double> dissipation(std::span<const double> variables) const override {
+    return model_->dissipation(variables);
+  }
   [[nodiscard]] Values freeStream(const FreeStream& stream) const override { return model_->freeStream(stream); }
   void evaluate(std::span<const TurbulentCell> cells, std::span<TurbulentRates> rates) const override {
     model_->evaluate(cells, rates);
