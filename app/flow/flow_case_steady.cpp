@@ -214,21 +214,21 @@ void addSteadyKeys(DeckSchema& schema) {
   search
       .add(integerKey(
                "time.steady.rounds",
-               "With ensembles or trees: most rounds, in each of which first the gas becomes steady with what the "
+               "Most rounds of gas and particles in turn: in each first the gas becomes steady with what the "
                "particles take of it in the mean (nothing in the first), then the particles have their averages in "
                "that gas.")
                .byDefault(fmt::format("{}", rounds.most))
                .atLeast(1)
                .onlyWith(descriptionKey, populations))
       .add(numberKey("time.steady.agreement",
-                     "With ensembles or trees: change of temperature, mass fractions and velocity of the gas from one "
+                     "Change of temperature, mass fractions and velocity of the gas from one "
                      "round to the next, of the range of each in the domain, with which the rounds end. What the gas "
                      "feels of the particles has the noise of their averages, by which it differs from round to round.")
                .byDefault(fmt::format("{}", rounds.tolerance))
                .above(0)
                .onlyWith(descriptionKey, populations))
       .add(integerKey("time.steady.blocks",
-                      "With ensembles or trees: blocks (particles.statistics.block) of the averages of the last round; "
+                      "Blocks (particles.statistics.block) of the averages of the last round; "
                       "those before, while "
                       "the gas still changes by more than three times 'agreement', have the least number.")
                .byDefault(fmt::format("{}", rounds.blocks))

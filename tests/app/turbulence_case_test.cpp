@@ -93,10 +93,6 @@ TEST(TurbulenceCase, RefusesWhatCannotBe) {
     (void)readFlowCase(test::flameDeck({"turbulence={model: wray_agarwal}", "boundaries.fuel.swirl_velocity=1 m/s"}));
   });
   EXPECT_THAT(swirls, AllOf(HasSubstr("turbulence.model"), HasSubstr("swirls")));
-  const std::string particles = test::messageOf<InputError>([&] {
-    (void)readFlowCase(test::flameDeck({"turbulence={model: wray_agarwal}", "particles.description=ensemble"}));
-  });
-  EXPECT_THAT(particles, AllOf(HasSubstr("turbulence.model"), HasSubstr("ensembles in the cells")));
 }
 
 TEST(TurbulenceCase, TellsOfUnlikelyInlets) {
