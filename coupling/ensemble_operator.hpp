@@ -115,7 +115,7 @@ class EnsembleOperator : public Operator {
   // their last turn (nothing before the first); in theirs the gas rests, and what they take of it is averaged from when
   // they are stationary on, or from a time (s) on. Between them what the state has of the particles are their mean
   // amounts. `block` (s): of the averages.
-  void beginParticles(double block, std::optional<double> averagedFrom = {});
+  void beginParticles(State& state, double block, std::optional<double> averagedFrom = {});
   void beginGas(State& state);
   // Blocks that the averages of the particles' turn have so far.
   [[nodiscard]] std::size_t averagedBlocks() const { return statistics_->blocks(); }

@@ -14,8 +14,10 @@ void EnsembleOperator::beginAverages(double block, std::optional<double> from) {
                       options_.sizes ? std::optional(options_.bins) : std::nullopt);
 }
 
-void EnsembleOperator::beginParticles(double block, std::optional<double> averagedFrom) {
+void EnsembleOperator::beginParticles(State& state, double block, std::optional<double> averagedFrom) {
   turn_ = Turn::Particles;
+  for (int cell = 0; cell < context_.mesh.owned; ++cell) setAmounts(state, cell);
+  context_.halo.update(state.carried, state.carriedCount());
   beginAverages(block, averagedFrom);
   averagedTime_ = 0.0;
   reserveBefore_.clear();
@@ -26,7 +28,7 @@ void EnsembleOperator::addToMeans(const State& state) {
   if (!statistics_->since()) return;
   if (reserveBefore_.empty()) {  // the averages start with the next step
     reserveBefore_ = reserve_;
-    return;
+    return;  // from a given time on the step that brought it is in the averages of the fields, and not here
   }
   averagedTime_ += lastStep_;
   const std::size_t width = amounts_.owedElement(0);

@@ -33,7 +33,7 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, cons
   std::vector<TimeControl::Search::Coarser> told;
   FlowCase flowCase;
   for (int level = meshes; level >= 1; --level) {
-    collectively(comm, [&] {
+    const auto read = [&] {
       const std::string refinement =
           fmt::format("mesh.refinement={}", deck.number("mesh.refinement") * std::ldexp(1.0, -level));
       flowCase = caseFrom(Deck::parse(deck.resolved(), deck.path(), {refinement, "output.species=[all]"}, flowSchema()),
@@ -43,7 +43,15 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, cons
       flowCase.time.search->branch.reset();
       flowCase.time.search->rounds.reset();
       flowCase.output.tables = {};
-    });
+    };
+    try {
+      collectively(comm, read);
+    } catch (const InputError& error) {  // such as a burner narrower than a cell
+      if (deck.has("time.steady.coarser_meshes")) throw;
+      printWarnings({fmt::format("no coarser mesh of {} of the cells in each direction: {}", std::ldexp(1.0, -level),
+                                 error.what())});
+      continue;
+    }
     const RunFolder own = RunFolder::prepare(folder.path() / fmt::format("coarser_{}", level), true, comm);
     FlowLoop loop(comm, flowCase);
     if (rank == 0) fmt::print("a coarser mesh first, of {} cells\n", loop.cells());

@@ -108,7 +108,10 @@ void readCombustion(const Deck& deck, FlowCase& flowCase) {
     flowCase.mixesParticles = deck.choice("combustion.soot_factor") == "kappa";
     if (flowCase.mixesParticles && !flowCase.carried)
       throw deck.error("combustion.soot_factor",
-                       "no model of particles is carried that it could be for; expected one, or 'particles'");
+                       flowCase.ensembles
+                           ? "'kappa' is for the particles of a model, and the deck has ensembles; expected 'one'"
+                           : "'kappa' is for the particles of a model, and the deck has none; expected "
+                             "'one', or a model as 'particles.description'");
   }
   flowCase.combustion = options;
 }

@@ -118,6 +118,7 @@ void addTurbulenceKeys(DeckSchema& schema) {
                      "measured to; beside walls the logarithmic layer is another then (kappa 0.35).")
                .byDefault("1.44")
                .above(0)
+               .below(1.92)
                .onlyWith("turbulence.model", {"k_epsilon"}))
       .add(numberKey("turbulence.largest_eddy_viscosity_ratio",
                      "A run ends where the eddy viscosity over that of the molecules becomes larger.")

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/wall_distance.hpp"
 #include "flow/models/combustion/fine_structure_cells.hpp"
@@ -141,11 +142,15 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
   collectively(mesh.comm, [&] {
     setMixingLayer(context, flowCase.initial, state);
     setInitialFields(context, flowCase.initialFields, state);
-    if (!flowCase.startPopulation) return;
-    for (int c = 0; c < mesh.owned; ++c)
+  });
+  if (flowCase.initialFields.isLit && lightMixture(context, state) == 0)
+    printWarnings(
+        {"initial.flow.light: no cell of the earlier run has a mixture that burns to a gas 500 K hotter, so that "
+         "nothing is lit; leave the key out, or start from a flow in which fuel and air have mixed"});
+  collectively(mesh.comm, [&] {
+    for (int c = 0; c < mesh.owned && flowCase.startPopulation; ++c)
       ensembles->initialise(state, c, flowCase.startPopulation(static_cast<std::uint64_t>(mesh.naturalCell[c])));
   });
-  if (flowCase.initialFields.isLit) lightMixture(context, state);
   if (turbulence) turbulence->setStart(state, flowCase.turbulence.start, flowCase.initialFields.turbulence);
   flow.initialise(state, flowCase.time.firstStep);
 }
@@ -168,6 +173,7 @@ std::vector<double> FlowDomain::carriedThroughFaces(const CarriedModel& model, d
 
 void FlowDomain::adopt(const FlowCase& flowCase) {
   flow.adopt(state);
+  if (combustion) combustion->endSweep(state);  // what it tells is of this state
   if (radiation) radiation->endStep(state);
   if (deposition && carried) deposition->setRate(carriedThroughFaces(*flowCase.carried, 1.0));
 }

@@ -129,6 +129,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     wallLimit_.recordStep(secondsSinceStart() - stepBegan_);
   }
   progress.finish();
+  warnOfRounds();
   if (case_.time.steady && !isSteady()) {
     printWarnings({fmt::format("time.end, {:.6g} s, has come before the flow is steady", case_.time.end)});
   }
@@ -166,14 +167,14 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
 }
 
 bool FlowLoop::isSteady() const {
-  if (rounds_) return rounds_->isDone();
+  if (rounds_) return rounds_->isDone() && rounds_->agrees();
   if (search_) return search_->isSteady();
   const std::optional<SteadyControl>& steady = case_.time.steady;
   return steady && time_ >= steady->after && steadiness_.isSteady(steady->tolerance, steady->norm);
 }
 
 bool FlowLoop::isAtEnd() const {
-  return time_ >= case_.time.end * (1.0 - 1e-12) || isSteady();
+  return time_ >= case_.time.end * (1.0 - 1e-12) || isSteady() || (rounds_ && rounds_->isDone());
 }
 
 void FlowLoop::watchSteadiness() {
@@ -212,6 +213,8 @@ void FlowLoop::beginNextStep() {
 
 void FlowLoop::resumeFromLoadedState() {
   domain_->state.updateHalo(domain_->halo);
+  // Nothing else evaluates a gas that is held.
+  if (holder() != nullptr && (rounds_ || domain_->turbulence)) domain_->adopt(case_);
   beginNextStep();
 }
 

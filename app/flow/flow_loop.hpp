@@ -122,12 +122,16 @@ class FlowLoop {
   void searchOn(Outputs& outputs);
   void iterate(Outputs& outputs);
   void makeIteration();
+  // Collective. Models of turbulence take the molecular viscosity of the flow's operator, which iterations do not
+  // change.
+  void evaluateForEddies();
   // Collective. Of the state that steps have led to, as searchOn() takes it.
   [[nodiscard]] SteadySearch::Residual evaluateForSearch();
   // Gas and ensembles in turn: what the present turn wants next, and what it has led to.
   void takeTurn(Outputs& outputs);
   void endTurnOfGas(Outputs& outputs);
   void endTurnOfParticles(Outputs& outputs);
+  void warnOfRounds() const;
   [[nodiscard]] std::vector<std::string> roundLines() const;
   void addRounds(JsonWriter& json) const;
   // From iterations that have ended in vain to steps in time.

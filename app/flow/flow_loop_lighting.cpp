@@ -37,6 +37,7 @@ void FlowLoop::lightIfDark(Outputs& outputs) {
   if (cells == 0) return;
   iteration_.reset();
   domain_->beginAnew(case_);
+  steadiness_.begin(domain_->state, time_);
   beginNextStep();
   dt_ = case_.time.firstStep;
   normsOf_ = -1;

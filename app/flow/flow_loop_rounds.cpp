@@ -39,20 +39,22 @@ void FlowLoop::endTurnOfGas(Outputs& outputs) {
   rounds_->addGas(change);
   outputs.progress.finish();
   if (domain_->mesh.rank == 0)
-    fmt::print("round {}: the gas is steady after {} iterations{}\n", rounds_->rounds() + 1, search_->iterations(),
-               change ? fmt::format(" and has changed by {:.2g} of its range", *change) : "");
+    fmt::print("round {}: the gas is steady after {} iterations so far{}\n", rounds_->rounds() + 1,
+               search_->iterations(), change ? fmt::format(" and has changed by {:.2g} of its range", *change) : "");
   if (rounds_->isDone()) return;
   const std::optional<EnsembleStatistics::Options>& averages = case_.ensembles->statistics;
   const double block = averages->block > 0.0 ? averages->block : steadiness_.time() / blocksInResidenceTime;
   std::optional<double> from;
   if (!rounds_->isLong()) from = time_ + static_cast<double>(rounds_->options().leastBlocks) * block;
-  domain_->ensembles->beginParticles(block, from);
+  domain_->ensembles->beginParticles(domain_->state, block, from);
+  domain_->budget->begin(domain_->state);
   dt_ *= firstStepOfParticles;
   resumeFromLoadedState();
 }
 
 void FlowLoop::endTurnOfParticles(Outputs& outputs) {
   domain_->ensembles->beginGas(domain_->state);
+  domain_->budget->begin(domain_->state);
   rounds_->addParticles();
   outputs.progress.finish();
   if (domain_->mesh.rank == 0)
@@ -61,6 +63,17 @@ void FlowLoop::endTurnOfParticles(Outputs& outputs) {
   resumeFromLoadedState();
   search_->resume(evaluateForSearch(), totalHeatRelease());
   if (search_->isSteady()) endTurnOfGas(outputs);
+}
+
+void FlowLoop::warnOfRounds() const {
+  if (!rounds_ || !rounds_->isDone() || rounds_->agrees()) return;
+  printWarnings(
+      {fmt::format("gas and ensembles do not agree after {} rounds: the gas still changes by {:.2g} of its range from "
+                   "one to the next "
+                   "(to be {:.2g}); more particles or blocks make the noise less (particles.number, "
+                   "time.steady.blocks), more rounds "
+                   "go on (time.steady.rounds)",
+                   rounds_->rounds(), rounds_->change().value_or(1.0), rounds_->options().tolerance)});
 }
 
 std::vector<std::string> FlowLoop::roundLines() const {

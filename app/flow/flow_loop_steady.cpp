@@ -108,10 +108,15 @@ void FlowLoop::makeIteration() {
   if (before % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
   backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
   beforeIterations_ = steadiness_;
+  evaluateForEddies();
   // What is a function of the state becomes it, such as an eddy viscosity that lags behind in time.
   for (Operator* op : operators_) op->setDiffusivities(domain_->state);
   domain_->state.updateHalo(domain_->halo);
   iteration_ = std::make_unique<SteadyIteration>(domain_->context, domain_->state, options, operators_);
+}
+
+void FlowLoop::evaluateForEddies() {
+  if (domain_->turbulence) domain_->adopt(case_);
 }
 
 void FlowLoop::iterate(Outputs& outputs) {
@@ -131,6 +136,7 @@ void FlowLoop::iterate(Outputs& outputs) {
       domain_->chemistry.setRates(domain_->state, residual.rates().made.reactions);
       domain_->stepControl.setHeatRelease(heatRelease());
       domain_->budget->begin(domain_->state);
+      evaluateForEddies();
       steadiness_.adopt(domain_->state, domain_->flow.properties(), time_);
       findNorms(residual);
       const SteadySearch::Residual left = residualOfSearch();
@@ -197,12 +203,7 @@ void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
   if (rounds_) {
     rounds_->saveOrLoad(archive);
     gases_.saveOrLoad(archive, "gases_");
-    if (isTurnOfParticles()) {
-      if (!archive.loading()) return;
-      domain_->state.updateHalo(domain_->halo);
-      domain_->adopt(case_);
-      return;
-    }
+    if (isTurnOfParticles()) return;
   }
   if (search_->phase() != SteadySearch::Phase::Iterations) return;
   if (archive.loading()) domain_->state.updateHalo(domain_->halo);

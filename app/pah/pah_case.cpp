@@ -9,6 +9,7 @@
 #include "app/pah/pah_rates_deck.hpp"
 #include "app/prescribed_gas/given_gas_deck.hpp"
 #include "app/tools/gas_input.hpp"
+#include "chemistry/mechanism/known_species.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "coupling/given_gas.hpp"
@@ -68,7 +69,7 @@ ParticlePath constantGas(const Deck& deck) {
     sum += deck.number(key);
     sample.concentrations[static_cast<std::size_t>(found - names.begin())] = total * deck.number(key);
   }
-  if (sum > 1) throw deck.error("gas.mole_fractions", fmt::format("they add up to {:g}, more than one", sum));
+  if (sum > 1 + 1e-9) throw deck.error("gas.mole_fractions", fmt::format("they add up to {:g}, more than one", sum));
   ParticlePath path;
   path.points = {sample, sample};
   path.points[1].time = deck.quantity("gas.end");
@@ -88,7 +89,10 @@ ParticlePath readGas(const Deck& deck) {
     if (deck.has(key)) throw deck.error(key, "the gas is that of 'gas.file' or 'gas.flame'; leave this out");
   if (!deck.has("mechanism"))
     throw deck.error("gas", "with 'file' or 'flame' the key 'mechanism' is needed, which has the gas's species");
-  return readGivenPath(deck, *readMechanism(deck), pahGasSpeciesNames(), GasViscosity::air);
+  const auto mechanism = readMechanism(deck);
+  for (const char* name : {"H", "H2", "C2H2"})
+    deck.at("mechanism", [&] { return knownSpecies(*mechanism, name, "molecules need"); });
+  return readGivenPath(deck, *mechanism, pahGasSpeciesNames(), GasViscosity::air);
 }
 
 std::array<bool, pahProcessCount> readProcesses(const Deck& deck) {

@@ -26,7 +26,7 @@ void saveOrLoad(StateArchive& archive, int rank, PahProgress& progress) {
 
 Fingerprint pahFingerprint(const PahCase& pah) {
   ContentHash molecule, growth;
-  molecule.add(cellsText(pah.rings) + cellsText(pah.fiveRings));
+  molecule.add(cellsText(pah.rings) + "|" + cellsText(pah.fiveRings));
   for (const GrowthInterval& interval : pah.growth.intervals) {
     growth.add(fmt::format("{} ", interval.duration));
     for (const double rate : interval.rates) growth.add(fmt::format("{} ", rate));

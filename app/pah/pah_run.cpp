@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "app/pah/pah_case.hpp"
 #include "app/pah/pah_checkpoint.hpp"
 #include "app/pah/pah_output.hpp"
 #include "app/run/warnings.hpp"
+#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "io/csv.hpp"
@@ -26,14 +28,14 @@ constexpr std::uint32_t growthPurpose = 0x706168;
 
 // Calls row(i, growth) at each row. False where the run is to stop before the end.
 template <class Row>
-bool growMolecule(const PahCase& pah, MoleculeGrowth& growth, const Row& row) {
+bool growMolecule(const PahCase& pah, MoleculeGrowth& growth, const Row& row, bool mayStop = true) {
   std::size_t next = 0;
   for (std::size_t i = 0; i <= pah.growth.intervals.size(); ++i) {
     for (; next < pah.growth.records.size() && pah.growth.records[next] == i; ++next) row(next, growth);
     if (i == pah.growth.intervals.size()) break;
     double left = pah.growth.intervals[i].duration;
     while ((left = growth.advance(pah.growth.intervals[i].rates, left, eventsAtATime)) > 0)
-      if (stopRequest() != 0) return false;
+      if (mayStop && stopRequest() != 0) return false;
   }
   return true;
 }
@@ -55,6 +57,7 @@ class PreparedPah : public PreparedRun {
     MPI_Comm_rank(comm, &rank_);
     MPI_Comm_size(comm, &ranks_);
     collectively(comm, [&] { case_ = readPahCase(deck); });
+    warnOfPressure();
   }
 
   [[nodiscard]] std::string summary() const override {
@@ -92,6 +95,22 @@ class PreparedPah : public PreparedRun {
   }
 
  private:
+  // Rates of growth on free edges and zigzags, and of chains, are fits at one atmosphere.
+  void warnOfPressure() const {
+    constexpr double farFrom = 1.5;  // in either direction
+    for (const char* key : {"rates.file", "rates.growth_free_edge", "rates.growth_zigzag", "rates.chain_zigzag"})
+      if (deck_.isGiven(key)) return;
+    const auto far = std::ranges::find_if(case_.path.points, [](const GasSample& sample) {
+      return std::abs(std::log(sample.gas.pressure / constants::oneAtmosphere)) > std::log(farFrom);
+    });
+    if (far == case_.path.points.end()) return;
+    printWarnings(
+        {fmt::format("the gas has {:.3g} atm at {:.3g} s, and the rates growth_free_edge, growth_zigzag and "
+                     "chain_zigzag are fits at 1 "
+                     "atm; give those of your pressure (section rates)",
+                     far->gas.pressure / constants::oneAtmosphere, far->time)});
+  }
+
   // Rounds of molecules, after each of which the run may stop or be saved.
   void growAll(const RunFolder& folder, PahProgress& progress) {
     const CheckpointFolder checkpoints(folder.path());
@@ -120,12 +139,12 @@ class PreparedPah : public PreparedRun {
         const std::filesystem::path file = save();  // without the round, in which a molecule may have been cut off
         raiseStopped(comm_, signal, fmt::format("after {} molecules, which {} has", progress.done, file.string()));
       }
-      own.add(ofRound);
+      collectively(comm_, [&] { own.add(ofRound); });
       progress.done = end;
       said.say(fmt::format("molecule {} of {}", progress.done, case_.repeats), static_cast<double>(progress.done));
       if (others[1] != 0) round *= 2;
       if (others[2] != 0) round = std::max(round / 2, static_cast<std::uint64_t>(ranks_));
-      if (others[0] != 0 && progress.done < case_.repeats) (void)save();
+      if (others[0] != 0) (void)save();
     }
     said.finish();
     progress.sums = own.ofAllRanks(comm_);
@@ -167,7 +186,8 @@ class PreparedPah : public PreparedRun {
       const Molecule start = case_.start();
       for (std::uint64_t repeat = 0; rank_ == 0 && repeat < case_.drawn; ++repeat) {
         MoleculeGrowth growth = newMolecule(case_, start, repeat);
-        (void)growMolecule(case_, growth, [](std::size_t, const MoleculeGrowth&) {});
+        (void)growMolecule(
+            case_, growth, [](std::size_t, const MoleculeGrowth&) {}, false);
         drawn.push_back(growth.molecule());
       }
       if (rank_ == 0) writeFileAtomically(folder.file("spectrum.csv"), csvTable(spectrum.columns, spectrum.rows));

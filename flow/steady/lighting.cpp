@@ -60,7 +60,8 @@ std::int64_t lightMixture(const FlowContext& context, State& state) {
       state.enthalpy[c] = context.thermo.enthalpyMass(T, Y);
       const double before = state.density[c];
       state.density[c] = context.thermo.density(T, state.thermodynamicPressure, Y);
-      for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
+      for (std::size_t s = 0; s < scalars; ++s)
+        if (state.scalars[s].isTransported) state.carried[c * scalars + s] *= state.density[c] / before;
     }
   });
   MPI_Allreduce(MPI_IN_PLACE, &lit, 1, MPI_INT64_T, MPI_SUM, context.mesh.comm);

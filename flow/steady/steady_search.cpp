@@ -150,7 +150,10 @@ void SteadySearch::addIteration(const Residual& told, double heatRelease, bool b
     bestAt_ = iterationsNow_;
   }
   if (!isAttempt_ && iterationsNow_ - bestAt_ >= patience)
-    goBack(fmt::format("the residual has not fallen below {:.2e} in {} iterations", best_.largest, patience));
+    goBack(
+        fmt::format("in {} iterations neither the largest residual has fallen below {:.2e} nor, where gas reacts, "
+                    "those of momentum and enthalpy further, nor the heat release risen",
+                    patience, best_.largest));
   else if (hasNoIterationsLeft() && isAttempt_)
     goBack(fmt::format("{} iterations were not enough", iterationsNow_));
   else if (hasNoIterationsLeft())

@@ -113,12 +113,14 @@ PahRates pahRates(const PahRateConstants& constants, double temperature, std::sp
   rate(PahProcess::G5R_ZZ) = c.waysZigzag * ring * radicals(zigzagOpening, zigzagClosing + ring + chain);
   const double add = k(c.fiveAddH), leave = k(c.fiveLoss), move = k(c.fiveMove);
   const double without = add / k(c.fiveEquilibrium) + k(c.fiveLoseH) * H + leave + move;
-  const double withH = add * H / without, radicalLeaves = k(c.fiveRadicalLoss);
-  const double radical = k(c.fiveOpenByH) * H / (k(c.fiveCloseByH2) * H2 + k(c.fiveCloseByH) * H + radicalLeaves);
+  // Without H there are neither, whatever else is zero.
+  const double withH = H > 0 ? add * H / without : 0, radicalLeaves = k(c.fiveRadicalLoss);
+  const double radical =
+      !(H > 0) ? 0 : k(c.fiveOpenByH) * H / (k(c.fiveCloseByH2) * H2 + k(c.fiveCloseByH) * H + radicalLeaves);
   rate(PahProcess::D5R_R5) = withH * leave + radical * radicalLeaves;
   rate(PahProcess::M5R_RZZ) = rate(PahProcess::C5R_RAC) = withH * move;
   const double grows = rate(PahProcess::G6R_FE);
-  rate(PahProcess::C5R_RFE) = grows * add * H / (without + grows);
+  rate(PahProcess::C5R_RFE) = H > 0 ? grows * add * H / (without + grows) : 0;
   for (std::size_t p = 0; p < pahProcessCount; ++p)
     if (!(rates[p] >= 0) || !std::isfinite(rates[p]))
       throw NumericsError(fmt::format("rates of molecules: that of {} at {:g} K is no rate: {:g} 1/s",

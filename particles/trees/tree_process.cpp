@@ -97,7 +97,10 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
     if (options_.coagulation) method_.setKernel(kernel);
   }
   sintering_.setTemperature(gas.temperature);
-  if (size() == 0) method_.startAfresh(options_.fullAt / static_cast<double>(options_.particles));
+  if (size() == 0) {
+    method_.startAfresh(options_.fullAt / static_cast<double>(options_.particles));
+    births_.startAfresh();
+  }
   cost_ = 0;
   const PopulationCounters before = method_.counters();
   std::visit(

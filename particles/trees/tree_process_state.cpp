@@ -149,6 +149,7 @@ void TreeProcess::unpack(std::span<const double> values) {
        rest = rest.subspan(treeRows.lengthOf(rest.data())))
     all.push_back(unpackTree(rest, type_.pool(), options_.material));
   method_.restore(memory, all);
+  kernel_.reset();  // what the store knows of rates is of the gas of who was unpacked before
 }
 
 void TreeProcess::join(std::span<const double> rows, double share) {

@@ -84,7 +84,7 @@ TEST(CombustionCase, RefusesWhatCannotBe) {
       {"model: pasr, version: 1996", {}, {"combustion.version"}},
       {"model: pasr, mixing_constant: 0", {}, {"combustion.mixing_constant"}},
       {"model: pasr, laminar_below: -1", {}, {"combustion.laminar_below"}},
-      {"model: pasr, soot_factor: kappa", {}, {"combustion.soot_factor", "no model of particles"}},
+      {"model: pasr, soot_factor: kappa", {}, {"combustion.soot_factor", "the particles of a model"}},
       {"model: edc, soot_factor: kappa", {}, {"combustion.soot_factor"}},
   };
   for (const Wrong& deck : decks) {

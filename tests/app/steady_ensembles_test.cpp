@@ -60,6 +60,7 @@ TEST(SteadyEnsembles, EndWhereARunInTimeWithBothHasItsMean) {
 
 // In a turn of the particles, in their averages, and in the iterations of a later turn of the gas.
 TEST(SteadyEnsembles, GoOnFromACheckpointAsIfTheyHadNotStopped) {
+  if (test::worldSize() > 1) GTEST_SKIP() << "pieces of the mesh may be others behind a restart";
   const test::SharedScratchFolder scratch;
   std::vector<std::string> settings = inTurn;
   settings.insert(settings.end(), {"time.steady.rounds=2", "time.steady.blocks=5", "output.history_steps=1",

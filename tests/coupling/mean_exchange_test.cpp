@@ -12,7 +12,7 @@ namespace {
 class MeanExchangeOfABox : public testing::Test {
  protected:
   MeanExchangeOfABox()
-      : box_(closedBox(0.004, 2, 1), fourWalls(), {}, MPI_COMM_WORLD, ethylene()),
+      : box_(closedBox(0.004, 3, 1), fourWalls(), {}, MPI_COMM_WORLD, ethylene()),
         state_(box_.stateWith(
             {},
             [](const Vector3& x) {

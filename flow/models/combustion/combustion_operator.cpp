@@ -44,8 +44,10 @@ void CombustionOperator::find(const State& state, std::span<CellMixing> mixing, 
       mixing[cell] = {isLaminar(eddies) ? 1.0 : stirredShare(of.chemical, of.mixing), 0.0};
     } else {
       of.mixing = options_.fine.mixing(eddies);
-      mixing[cell] =
-          isLaminar(eddies) ? CellMixing{} : CellMixing{options_.fine.share(options_.fine.size(eddies)), of.mixing};
+      mixing[cell] = isLaminar(eddies) ? CellMixing{}
+                     : !std::isfinite(of.mixing)
+                         ? CellMixing{0.0, 0.0}  // what never mixes does not react
+                         : CellMixing{options_.fine.share(options_.fine.size(eddies)), of.mixing};
     }
   });
 }
@@ -94,12 +96,13 @@ std::vector<double> CombustionOperator::historyValues(const State& state) {
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, extremes.data(), static_cast<int>(extremes.size()), MPI_DOUBLE, MPI_MAX, m.comm);
-  const double all = sums[0] > 0.0 ? sums[0] : std::numeric_limits<double>::infinity();
+  const double all = sums[0] > 0.0 ? sums[0] : std::numeric_limits<double>::quiet_NaN();
   told_ = {-extremes[0], sums[1] / all, extremes[1], sums[2] / all, sums[3] / all};
   return {told_.begin(), told_.end()};
 }
 
 std::vector<std::string> CombustionOperator::closingLines() const {
+  if (std::isnan(told_[1])) return {"combustion: no heat is released"};
   return {
       fmt::format("combustion: mixing lets {:.3g} of the reactions go, mean over the heat release (least {:.3g}); "
                   "of the heat release {:.2g} % is where less than 0.01 goes, {:.2g} % where eddies are weaker "
