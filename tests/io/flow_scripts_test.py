@@ -313,6 +313,16 @@ def check_sandia_d(folder):
         assert row["model"] == "edc" and abs(row["Z"] - share(at)) < 2e-4 and row["CO"] == 0, row
         assert abs(row["T"] - 300 - 1000 * at) < 1e-6 and abs(row["u"] - 63 + 50 * at) < 1e-6, row
     assert row["x/D"] == 60 and row["measured"]["T"] == 1543, row
+    # A fifth of carbon monoxide, a tenth of hydrogen, air's nitrogen: 2 n_C + n_H/2 by hand, of the fuel 1 a mole.
+    with h5py.File(run / "results.h5", "r+") as file:
+        for s, x in {"CH4": 0.0, "O2": 0.0, "CO": 0.2, "H2": 0.1, "N2": 0.7}.items():
+            if s != "H2":
+                del file[f"steps/000003/X_{s}"]
+            file[f"steps/000003/X_{s}"] = 0 * z + x
+    code, told, err = called("compare_sandia_d", run, "--json")
+    weight = 0.2 * 28.010 + 0.1 * 2.016 + 0.7 * 28.014
+    for row in json.loads(told):
+        assert abs(row["Z"] - (2 * 0.2 + 0.5 * 0.2) / weight * weigh(fuel)) < 2e-4 and abs(row["CO"] - 0.2 * 28.010 / weight) < 1e-5, row
     code, _, err = called("compare_sandia_d", folder / "nowhere")
     assert code == 2 and "nowhere" in err, err
 
