@@ -37,6 +37,7 @@ class Lampblack(CMakePackage):
     depends_on("py-h5py", type="run")
     depends_on("py-matplotlib", type="run")
     depends_on("py-scipy", type="run")
+    depends_on("py-pyyaml", type="run")
 
     generator("ninja")
     conflicts("%gcc@:11", msg="C++20 as Lampblack uses it needs GCC 12 or newer")
