@@ -95,7 +95,8 @@ def plot_objective(analysis, pictures):
         here = table["parameter"] == name
         value, phi = np.asarray(table["value"], float)[here], np.asarray(table["phi"], float)[here]
         axes.plot(value, phi, color="black")
-        axes.axhline(phi.min() + 3.84, color="0.6", lw=0.8)
+        axes.axhline(phi.min() + 3.84, color="0.6", lw=0.8, label="95 %")
+        axes.legend(fontsize=7)
         axes.set_ylim(phi.min() - 1, min(phi.max(), phi.min() + 40) + 1)
         if _is_log(value):
             axes.set_xscale("log")
@@ -178,12 +179,13 @@ def plot_pairs(analysis, pictures):
     if len(names) < 2:
         pictures.skip("pairs", "there is one parameter")
         return
+    colours = [name for name in list(points)[len(names):] if name not in ("status", "message")]  # numbers, behind all parameters
     names, logs = names[:6], logs[:6]
     samples = None
     if path.is_file():
         with h5py.File(path) as file:
             samples = [file[name][()] for name in names if name in file]
-    colour = np.asarray(points["phi"], float) if "phi" in points else np.asarray(points[next(n for n in list(points)[len(names):] if n not in ("status", "message"))])
+    colour = np.asarray(points["phi"], float) if "phi" in points else np.asarray(points[colours[0]])
     colour = np.log10(colour) if colour.dtype.kind == "f" and _is_log(colour[np.isfinite(colour)]) else colour
     size = len(names) - 1
     figure, panels = plt.subplots(size, size, figsize=(3.2 * size + 0.8, 3 * size), squeeze=False)

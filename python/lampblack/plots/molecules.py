@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from .reactor import TIMES, unit_of
 from .style import plt
 
 MOST_DRAWN = 12
@@ -17,7 +18,7 @@ def plot_molecules(results, pictures):
 
 
 def _plot_history(columns, pictures):
-    time, (factor, unit) = columns["time"], _unit(columns["time"][-1])
+    time, (factor, unit) = columns["time"], unit_of(columns["time"][-1], TIMES)
     figure, panels = plt.subplots(2, 2, figsize=(9.6, 6.4), sharex=True)
     groups = (
         ("atoms", ("carbon", "hydrogen")),
@@ -42,10 +43,6 @@ def _plot_history(columns, pictures):
     pictures.save(figure, "history")
 
 
-def _unit(largest):
-    return next(((f, name) for name, f in (("s", 1.0), ("ms", 1e3), ("us", 1e6)) if largest * f >= 1.0), (1e9, "ns"))
-
-
 def _plot_spectrum(group, pictures):
     if group is None or len(group["time"]) == 0:
         pictures.skip("mass spectrum", "there is none")
@@ -61,7 +58,7 @@ def _plot_spectrum(group, pictures):
     below.set_xlabel("carbon atoms")
     below.set_ylabel("hydrogen atoms")
     figure.colorbar(drawn, ax=below, label="part of the molecules")
-    factor, unit = _unit(values["time"].max())
+    factor, unit = unit_of(values["time"].max(), TIMES)
     figure.suptitle(f"formulas at {factor * values['time'].max():.3g} {unit}", fontsize=10)
     pictures.save(figure, "spectrum")
 

@@ -6,6 +6,7 @@ from .sensitivities import plot_sensitivities
 from .style import plt
 from .tree_tables import plot_tree_tables
 
+TIMES = (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9))
 MOST_SPECIES = 8
 
 
@@ -19,13 +20,13 @@ def plot_reactor(results, pictures):
             plot_particles(columns, columns["position"] * factor, f"z, {unit}", pictures)
         else:
             shown = 2.5 * max(delays.values()) if delays else np.max(columns["time"])
-            factor, unit = unit_of(shown, (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
+            factor, unit = unit_of(shown, TIMES)
             delays = {name: time * factor for name, time in delays.items()}
             _plot_history(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
             plot_particles(columns, columns["time"] * factor, f"time, {unit}", pictures)
             _plot_ignition(columns, columns["time"] * factor, f"time, {unit}", delays, pictures)
     elif "time" in columns:
-        factor, unit = unit_of(np.max(columns["time"]), (("s", 1.0), ("ms", 1e3), ("us", 1e6), ("ns", 1e9)))
+        factor, unit = unit_of(np.max(columns["time"]), TIMES)
         for reactor in [name.removesuffix("_temperature") for name in columns if name.endswith("_temperature")]:
             own = {name.removeprefix(f"{reactor}_"): values for name, values in columns.items() if name.startswith(f"{reactor}_")}
             _plot_history(own, columns["time"] * factor, f"time, {unit}", {}, pictures, f"reactor_{reactor}")
