@@ -122,6 +122,10 @@ def check_fit(run: Analyses) -> None:
     for name, content in before.items():
         assert (run.folder / "fit" / name).read_bytes() == content, f"{name} is another"
 
+    wider = heating(propagate={"from": "posterior"})
+    wider["parameters"][0]["to"] = 1400
+    other = run("propagate", wider, "--out", run.folder / "fit")
+    assert other.code == 2 and "parameters: these are not those of the fit" in other.err, other.err
     if not ALL:
         return
     surrogate = run.good("fit", heating(design={"points": 32}, optimise={"on": "surrogate", "starts": 2}, uncertainty={"method": "posterior", "samples": 2000}),
@@ -130,7 +134,11 @@ def check_fit(run: Analyses) -> None:
     rows = {row["parameter"]: row for row in run.table("posterior/fit.csv")}
     assert float(rows["T"]["posterior_low"]) < 1260 < float(rows["T"]["posterior_high"]), rows
     options = heating(design={"points": 32}, propagate={"from": "posterior", "samples": 200})
+    before = {name: (run.folder / "posterior" / name).read_bytes() for name in ("analysis.json", "points.csv", "report.txt")}
     run.good("propagate", options, "posterior")
+    assert all((run.folder / "posterior" / name).read_bytes() == content for name, content in before.items())
+    assert json.loads((run.folder / "posterior/propagated.json").read_text(encoding="utf-8"))["task"] == "propagate"
+    assert len(run.table("posterior/propagated_points.csv")) == 32 and (run.folder / "posterior/propagated_report.txt").is_file()
     band = next(row for row in run.table("posterior/bands.csv") if row["deck"] == "lean" and row["quantity"] == "end")
     assert float(band["q2.5"]) < float(run.table("lean/history.csv")[-1]["temperature [K]"]) < float(band["q97.5"]), band
     assert run.program("plot", run.folder / "posterior").code == 0
@@ -184,6 +192,8 @@ def check_design_and_trade_off(run: Analyses) -> None:
     ends, delays = ([float(row[f"lean.{name}"]) for row in rows] for name in ("end", "delay"))
     assert len(rows) >= 2 and sorted(ends) == ends and sorted(delays, reverse=True) == delays, rows
     assert (run.folder / "front/best/1/lean.yaml").is_file() and run.program("plot", run.folder / "front").code == 0
+    for words, constraint in (("at_least or at_most", {}), ("limit above 0", {"at_most": 0.0})):
+        run.refused(words, "trade_off", {**options, "trade_off": {**options["trade_off"], "constraints": [{"deck": "lean", "quantity": "delay", **constraint}]}})
     run.refused("two are expected", "trade_off", {**options, "trade_off": {"objectives": options["trade_off"]["objectives"][:1]}})
 
 

@@ -3,6 +3,7 @@
 Usage: analysis_data_test.py [EXECUTABLE]
 """
 
+import json
 import pathlib
 import sys
 import tempfile
@@ -15,7 +16,7 @@ running.needs("scipy")
 sys.path.insert(0, str(running.SOURCE / "python"))
 
 from lampblack import arrays  # noqa: E402
-from lampblack.analysis import measurements, objective, problem  # noqa: E402
+from lampblack.analysis import measurements, objective, problem, runs, tables, work  # noqa: E402
 from lampblack.errors import InputError  # noqa: E402
 from lampblack.units import parse_unit, si_unit  # noqa: E402
 
@@ -72,7 +73,8 @@ def check_parameters():
         counts = np.histogram(x, bins=20, range=(0, 1))[0]
         density = np.exp(b.log_prior((np.arange(200) + 0.5) / 200)).reshape(20, 10).mean(axis=1)
         assert np.abs(counts / 20000 - density / density.sum()).max() < 0.01, kind
-    for words, more in (("above from", {"to": 1.5}), ("above 0", {"from": -1.0}), ("from 2 to 200", {"start": 300.0})):
+    for words, more in (("above from", {"to": 1.5}), ("above 0", {"from": -1.0}), ("from 2 to 200", {"start": 300.0}),
+                        ("between the bounds", {"prior": {"type": "normal", "mean": 900.0, "deviation": 10.0}})):
         refused(InputError, words, lambda more=more: one(**more))
 
 
@@ -114,6 +116,75 @@ def check_problem(folder):
     (folder / "m.csv").write_text("deck,quantity,value [ppm],error [ppb]\none,T,20,2\n", encoding="utf-8")
     assert abs(measurements.read_measurements(known)[0].error / 2e-9 - 1) < 1e-12
     refused(InputError, "in K, and the run has it in m", measurements.refuse_other_dimension, rows[0], "m", "value")
+    for words, row in (("finite", "one,T,nan,2"), ("finite", "one,T,20,inf"), ("share of the value 0", "one,T,0,5 %")):
+        (folder / "m.csv").write_text(f"deck,quantity,value,error\n{row}\n", encoding="utf-8")
+        refused(InputError, words, measurements.read_measurements, known)
+    for words, change in (("'{k*-1}' is not understood", ("parameters", 0, "set", ["rate={k*-1}"])), ("'{ k }'", ("parameters", 0, "set", ["rate={ k }"])),
+                          ("f.along: this is for a table", ("quantities", "f", "table", None))):
+        options = options_of(folder)
+        section, which, key, value = change
+        options[section][which][key] = value
+        if section == "quantities":
+            options[section][which].update(result="a", column=None)
+        refused(InputError, words, problem.Problem, options, folder / "analysis.yaml")
+    options = options_of(folder)
+    options["parameters"][0]["set"] = ["rate={low: {k}, none: {}}"]
+    assert problem.Problem(options, folder / "analysis.yaml").settings(known.experiments[0], x)[1] == f"rate={{low: {known.values(x)['k']!r}, none: {{}}}}"
+
+
+class Ran(runs.Runs):
+    """Two runs, each a table of three rows; the experiment two has failed."""
+
+    def __init__(self, known, folder):
+        super().__init__(known, folder / "runs")
+        (folder / "t.csv").write_text("z [m],c\n0.001,1\n0.002,3\n0.003,-5\n", encoding="utf-8")
+        self.where, self.asked = folder, []
+
+    def run(self, points, experiments):
+        self.asked += [experiment.name for experiment in experiments]
+
+    def place(self, experiment, x):
+        return self.where
+
+
+def check_runs(folder):
+    """Only the decks of what is asked for run; a shift beyond the run fails the point, a place beyond it the analysis; no logarithm warns."""
+    options = options_of(folder)
+    options.update(ranks_per_run=1, design={"seed": 1})
+    known = problem.Problem(options, folder / "analysis.yaml")
+    two, output = known.experiments[1], measurements.Output
+    made = work.Work(known, folder)
+    made.runs = Ran(known, folder)
+    one = output(two, known.quantities["T"], place=2.8e-3)
+    values, _ = made.runs.values(np.array([[0.5, 0.5], [0.5, 0.9]]), [one])
+    assert abs(values[0, 0] + 3.4) < 1e-12 and np.isnan(values[1, 0]) and made.runs.asked == ["two"], (values, made.runs.asked)
+    tables.write_points(folder / "points.csv", known, made.runs, np.array([[0.5, 0.5], [0.5, 0.9]]), [one], values, values)
+    assert [row.split(",")[2] for row in (folder / "points.csv").read_text(encoding="utf-8").splitlines()] == ["status", "done", "failed"]
+    refused(InputError, "abscissa_from", made.runs.values, np.array([[0.5, 0.5]]), [output(known.experiments[0], known.quantities["T"], place=4e-3)])
+    made.asked(np.array([[0.5, 0.5]]), [output(known.experiments[0], known.quantities["f"], place=2.9e-3)], "design")
+    assert len(made.warnings) == 1 and "1 of 1 values of one.f@0.0029 are not above 0" in made.warnings[0], made.warnings
+
+
+def check_kept_failures(folder):
+    """Of an earlier session a failure of numerics is kept, a wrong input is tried again."""
+    options = {**options_of(folder), "ranks_per_run": 1}
+    known, batch = problem.Problem(options, folder / "analysis.yaml"), folder / "kept/batch_1"
+    batch.mkdir(parents=True)
+    (batch / "study.yaml").write_text("{}", encoding="utf-8")
+    (batch / "study.json").write_text(json.dumps({"runs": [{"run": f"k_{i}", "status": status, "message": ""} for i, status in enumerate(
+        ("wrong input", "numerics failed"))]}), encoding="utf-8")
+    assert set(runs.Runs(known, folder / "kept")._failed) == {"1"} and set(runs.Runs(known, folder / "kept", jobs=2)._failed) == {"0", "1"}
+
+
+def check_record(folder):
+    """Numbers that are not finite are null."""
+    known = types.SimpleNamespace(name="a", path=folder / "a", options={"design": {"seed": 1}})
+    known_runs = types.SimpleNamespace(begun=0, taken=0)
+    version, tables.executable = tables.executable, lambda: "true"
+    tables.write_record(folder / "record.json", "fit", known, known_runs, {"phi_best": np.inf, "best": {"a": np.float64("nan"), "b": np.array([1.5])}})
+    tables.executable = version
+    record = json.loads((folder / "record.json").read_text(encoding="utf-8"))
+    assert record["phi_best"] is None and record["best"] == {"a": None, "b": [1.5]}, record
 
 
 def check_objective(folder):

@@ -12,6 +12,7 @@ from ..errors import InputError, LampblackError, MachineError, NumericsError, Re
 TASKS = ("fit", "sensitivity", "propagate", "design", "trade_off")
 TABLES = ("points.csv", "searches.csv", "fit.csv", "residuals.csv", "errors.csv", "objective.csv", "sensitivity.csv", "bands.csv", "front.csv", "choice.csv",
           "errors_expected.csv", "posterior.h5", "analysis.json", "report.txt")
+PROPAGATED = ("bands.csv", "propagated_points.csv", "propagated.json", "propagated_report.txt")  # beside a fit
 
 
 def check_decks(problem):
@@ -43,21 +44,26 @@ def begin(arguments, problem):
 
     folder, task = arguments.out, arguments.task
     record = folder / "analysis.json"
-    if record.is_file() and not arguments.force:
-        before = json.loads(record.read_text(encoding="utf-8"))
-        same = {"fit", "propagate"} == {before["task"], task}  # a posterior is propagated in its own folder
-        if not same and (before["task"], before["options"]) != (task, problem.options):
+    before = json.loads(record.read_text(encoding="utf-8")) if record.is_file() else None
+    beside = before is not None and (before["task"], task) == ("fit", "propagate")  # a posterior is propagated in its own folder
+    if beside:
+        for key in ("parameters", "decks"):
+            if before["options"][key] != problem.options[key]:
+                raise InputError(f"{key}: these are not those of the fit in {folder}; give the analysis that was fitted, or fit anew, or choose another "
+                                 "folder with --out DIR")
+    elif before is not None and not arguments.force:
+        if (before["task"], before["options"]) != (task, problem.options):
             raise InputError(f"{folder}: this folder holds another analysis already. Choose another with --out DIR, or replace it with --force; "
                              "runs that both have in common are taken from there where the key runs names one folder for both")
     if (folder / "run.json").is_file() or (folder / "study.json").is_file():
         raise InputError(f"{folder}: this folder holds a run or a study already; choose another with --out DIR")
     folder.mkdir(parents=True, exist_ok=True)
     if arguments.force:
-        for name in TABLES:
-            if not (name == "posterior.h5" and task == "propagate"):
-                (folder / name).unlink(missing_ok=True)
-        shutil.rmtree(folder / "best", ignore_errors=True)
-    return Work(problem, folder, arguments.ranks, arguments.jobs)
+        for name in PROPAGATED if beside else TABLES + PROPAGATED:
+            (folder / name).unlink(missing_ok=True)
+        if not beside:
+            shutil.rmtree(folder / "best", ignore_errors=True)
+    return Work(problem, folder, arguments.ranks, arguments.jobs, beside)
 
 
 def work_on(arguments, problem):
@@ -70,7 +76,7 @@ def work_on(arguments, problem):
         check_decks(problem)
     work.say(f"{problem.name}: {arguments.task}")
     {"fit": fit, "sensitivity": sensitivity, "propagate": propagate, "design": design, "trade_off": trade_off}[arguments.task](work)
-    (work.folder / "report.txt").write_text("\n".join(work.lines) + "\n", encoding="utf-8")
+    work.file("report.txt").write_text("\n".join(work.lines) + "\n", encoding="utf-8")
     print(f"analysis in {work.folder}; lampblack plot {work.folder} makes its pictures")
 
 

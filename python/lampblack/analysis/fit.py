@@ -139,6 +139,7 @@ def _residual_table(work, best, start):
     """All measurements, also those kept out of the fit, before and after."""
     outputs = [o for o in read_measurements(work.problem) if o.experiment.use != "candidate"]
     target = Objective(work.problem, outputs)
+    target.weight = np.ones(len(outputs))  # differences in units of their errors alone
     values, errors = work.runs.values(np.array([start, best]), outputs)
     rest = target.residuals(target.transformed(values), target.transformed_errors(values, errors), np.array([start, best]))
     deviations = target.deviations(np.nan_to_num(target.transformed_errors(values, errors)[1]))
@@ -163,8 +164,10 @@ def _residual_table(work, best, start):
 def fit(work):
     problem = work.problem
     fitted = [o for o in read_measurements(problem) if o.experiment.use == "fit"]
-    if len(fitted) < problem.dimensions:
-        raise InputError(f"measurements.files: a fit of {problem.dimensions} parameters needs as many measurements of decks of use fit; found {len(fitted)}")
+    priors = sum(p.prior != "uniform" for p in problem.parameters)
+    if not fitted or len(fitted) + priors < problem.dimensions:
+        raise InputError(f"measurements.files: a fit of {problem.dimensions} parameters needs as many measurements of decks of use fit, or priors; found "
+                         f"{len(fitted)} measurements and {priors} priors")
     model = Model(work, Objective(problem, fitted))
     target, options = model.target, work.options
     points = np.concatenate([[problem.start], work.design()])
@@ -183,10 +186,11 @@ def fit(work):
     if not np.all(np.isfinite(slopes)):
         raise NumericsError("uncertainty: a run beside the best point failed, so that the derivatives are not known there")
     at_best = residuals(best[None, :])[0]
-    freedom = len(fitted) - problem.dimensions
+    freedom = len(slopes) - problem.dimensions  # priors count as measurements
     matrix = posterior.covariance(slopes, objective(at_best), freedom)
     deviations = np.sqrt(np.diag(matrix))
-    true_phi = target.phi_of_data(model.by_runs(best[None, :])[0])
+    true = model.by_runs(best[None, :])[0]
+    true_phi, start_value = target.phi_of_data(true), target.phi_of_data(rest[0])
     samples = _posterior(work, model, best, deviations) if wants_posterior else None
     if model.surrogates is not None:
         _profiles(work, model, best)
@@ -202,11 +206,17 @@ def fit(work):
             rows[-1] += [float(p.value(x)) for x in np.percentile(samples[:, i], [50, 2.5, 97.5])]
     write_table(work.folder / "fit.csv", head, rows)
     work.say("\nvalues, standard errors and intervals of 95 %:\n" + aligned(head, rows))
-    start_value = target.phi_of_data(rest[0])
     work.say(f"\nobjective {start_value:.4g} at the start, {true_phi:.4g} at the best point (true runs), {freedom} degrees of freedom")
     _residual_table(work, best, problem.start)
-    _warn(work, model, best, true_phi, freedom, matrix, slopes)
-    write_best(work.folder / "best", problem, work.runs, best,
+    if not np.isfinite(true_phi):
+        work.warn(f"the true run at the best point of the surrogates failed ({work.runs.failure(best, fitted) or 'a number has no logarithm, or lies beyond the run'}): "
+                  "use optimise.on: runs, or smaller ranges")
+    elif objective(true) > phi[0]:
+        work.warn(f"the true runs have a larger objective at the best point of the surrogates than at the start ({objective(true):.4g}, {phi[0]:.4g}): the "
+                  "surrogates are too poor; increase design.points, or use optimise.on: runs")
+    _warn(work, model, best, objective(true), freedom, matrix, slopes)
+    work.runs.run(best[None, :], [e for e in problem.experiments if e.use != "candidate"])
+    write_best(work.folder / "best", work, best,
                [f"fitted to {', '.join(sorted({o.source for o in fitted if o.source})) or 'the measurements of the analysis'}, objective {true_phi:.5g} with "
                 f"{freedom} degrees of freedom"])
     write_record(work.folder / "analysis.json", "fit", problem, work.runs, {

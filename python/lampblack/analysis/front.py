@@ -52,26 +52,47 @@ def trade_off(work):
     constraints = options.get("constraints", [])
     outputs = [output(one, f"trade_off.objectives[{i}]") for i, one in enumerate(objectives)]
     outputs += [output(one, f"trade_off.constraints[{i}]") for i, one in enumerate(constraints)]
+    for i, (one, of) in enumerate(zip(constraints, outputs[2:])):
+        where, limits = f"trade_off.constraints[{i}]", [one[key] for key in ("at_least", "at_most") if key in one]
+        if not limits:
+            raise InputError(f"{where}: at_least or at_most is expected, or nothing is asked for")
+        if of.quantity.is_log and min(limits) <= 0:
+            raise InputError(f"{where}: a limit above 0 is expected, as the logarithm of {of.quantity.name} is taken; found {min(limits):g}")
     points = work.design()
     values, errors = work.asked(points, outputs, "design")
     transformed = np.stack([o.quantity.transformed(values[:, k]) for k, o in enumerate(outputs)], axis=1)
     made = work.surrogates(points, transformed, [o.name for o in outputs])
     signs = [1 if one["sense"] == "minimise" else -1 for one in objectives]
 
-    def allowed(x):
-        missed = np.zeros(len(x))
+    def missed_by(numbers):
+        """Of numbers after their transform, a column an output."""
+        missed = np.zeros(len(numbers))
         for k, one in enumerate(constraints, 2):
-            value, quantity, scale = made[k](x), outputs[k].quantity, np.sqrt(made[k].variance) or 1.0
+            value, quantity, scale = numbers[:, k], outputs[k].quantity, np.sqrt(made[k].variance) or 1.0
             if "at_least" in one:
                 missed += np.maximum(quantity.transformed(one["at_least"]) - value, 0) / scale
             if "at_most" in one:
                 missed += np.maximum(value - quantity.transformed(one["at_most"]), 0) / scale
         return missed
 
+    def allowed(x):
+        return missed_by(np.stack([s(x) for s in made], axis=1)) if constraints else np.zeros(len(x))
+
     front = pareto_front(lambda x: signs[0] * made[0](x), lambda x: signs[1] * made[1](x), allowed, problem.dimensions, options["points"], work.seed)
-    if np.any(allowed(front) > 1e-6):
+    holds = allowed(front) <= 1e-6
+    if not np.any(holds):
         raise InputError("trade_off.constraints: no point within the bounds holds them all")
+    if not np.all(holds):
+        work.warn(f"{int(np.sum(~holds))} points of the front hold the constraints by no means and are left out")
+    front = front[holds]
     found, noise = work.asked(front, outputs, "the front by true runs")
+    failed = ~np.all(np.isfinite(found), axis=1)
+    if np.any(failed):
+        work.warn(f"the true runs of {int(np.sum(failed))} points of the front failed: their numbers are empty in front.csv")
+    true = np.stack([o.quantity.transformed(found[:, k]) for k, o in enumerate(outputs)], axis=1)
+    late = int(np.sum(missed_by(true)[~failed] > 0))
+    if late:
+        work.warn(f"by true runs {late} points of the front miss a constraint, which they hold by surrogates: increase design.points, or ask for more than is needed")
     predicted = np.stack([o.quantity.back(s(front)) for o, s in zip(outputs, made)], axis=1)
     head = [*(p.name for p in problem.parameters)] + [name for o in outputs for name in (o.name, o.name + "_surrogate", o.name + "_noise")]
     rows = [[*problem.values(x).values(), *(n for k in range(len(outputs)) for n in (found[i, k], predicted[i, k], noise[i, k]))] for i, x in enumerate(front)]
@@ -80,6 +101,6 @@ def trade_off(work):
     work.say(aligned(head, rows))
     for place, x in enumerate(front):
         (work.folder / "best").mkdir(exist_ok=True)
-        write_best(work.folder / "best" / f"{place + 1}", problem, work.runs, x, [f"point {place + 1} of the front"])
+        write_best(work.folder / "best" / f"{place + 1}", work, x, [f"point {place + 1} of the front"])
     write_record(work.folder / "analysis.json", "trade_off", problem, work.runs,
                  {"objectives": [o.name for o in outputs[:2]], "least_r2": min(s.r2 for s in made), "warnings": work.warnings})

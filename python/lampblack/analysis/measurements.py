@@ -2,6 +2,7 @@
 
 import csv
 import dataclasses
+import math
 
 from ..damage import reading
 from ..errors import InputError
@@ -33,9 +34,12 @@ class Output:
 
 def _number(text, where):
     try:
-        return float(text)
+        number = float(text)
     except ValueError as error:
         raise InputError(f"{where}: a number is expected, found '{text}'") from error
+    if not math.isfinite(number):
+        raise InputError(f"{where}: a number that is finite is expected, found '{text}'; leave the row out")
+    return number
 
 
 def _read(path, experiments, quantities):
@@ -95,6 +99,8 @@ def _read(path, experiments, quantities):
         if number <= 0:
             raise InputError(f"{where}: the error has to be above 0, or nothing is compared with it; found '{text['error']}'")
         if share:
+            if output.value == 0:
+                raise InputError(f"{where}: a share of the value 0 is no error; write the error in the unit of the value, or leave the row out")
             output.relative = number / 100
             output.error = output.relative * abs(output.value or 0.0)
         else:

@@ -12,6 +12,8 @@ from ..errors import InputError
 _NAME = re.compile(r"[A-Za-z_]\w*$")
 _PLACE = re.compile(r"\{([A-Za-z_]\w*)(?:\*([\d.]+(?:[eE][+-]?\d+)?))?\}")  # {A}, or a multiple of it: {f*0.002}
 
+_BRACES = re.compile(r"\{[^{}:,]*\}")  # what looks like a place: a map of YAML has a colon
+
 
 class Parameter:
     """One parameter; on its scale the range goes from 0 to 1."""
@@ -30,6 +32,8 @@ class Parameter:
         self.prior, self.prior_mean, self.prior_deviation = prior["type"], prior.get("mean"), prior.get("deviation")
         if self.prior == "lognormal" and (self.prior_mean <= 0 or self.low <= 0):
             raise InputError(f"{where}.prior: a lognormal parameter has a mean and bounds above 0")
+        if self.prior != "uniform" and np.ptp(self._prior_ends()) < 1e-12:
+            raise InputError(f"{where}.prior: nothing of it lies between the bounds {self.low:g} and {self.high:g}")
         self.start = given.get("start", self.value(0.5))
         if not self.low <= self.start <= self.high:
             raise InputError(f"{where}.start: a value from {self.low:g} to {self.high:g} is expected, found {self.start:g}")
@@ -60,11 +64,15 @@ class Parameter:
         measure = self.slope(x) / self.value(x) if self.prior == "lognormal" else self.slope(x)
         return -0.5 * score**2 + np.log(measure)
 
+    def _prior_ends(self):
+        """Shares of the prior below both bounds."""
+        return norm.cdf([self.score(0.0), self.score(1.0)])
+
     def drawn(self, share):
         """The place on the scale below which this share of the prior between the bounds lies."""
         if self.prior == "uniform":
             return np.asarray(share)
-        ends = norm.cdf([self.score(0.0), self.score(1.0)])
+        ends = self._prior_ends()
         score = norm.ppf(ends[0] + np.asarray(share) * (ends[1] - ends[0]))
         value = self.prior_mean * np.exp(score * self.prior_deviation) if self.prior == "lognormal" else self.prior_mean + score * self.prior_deviation
         return np.clip(self.place(value), 0, 1)
@@ -89,6 +97,9 @@ class Quantity:
             raise InputError(f"{where}: either result or table is expected")
         if self.table is not None and self.column is None:
             raise InputError(f"{where}.column: a table needs the name of a column")
+        for key, given_too in (("column", self.column), ("along", self.along), ("take", self.take != "last")):
+            if self.result is not None and given_too:
+                raise InputError(f"{where}.{key}: this is for a table; a result is one number already")
 
     def transformed(self, values):
         if not self.is_log:
@@ -135,6 +146,10 @@ class Problem:
                     raise InputError(f"parameters[{i}].set: {key} is set by the parameter {keys[key]} already; one assignment may have several "
                                      "parameters in it")
                 keys[key] = parameter.name
+                for braces in _BRACES.findall(assignment):
+                    if braces != "{}" and not _PLACE.fullmatch(braces):
+                        raise InputError(f"parameters[{i}].set: '{braces}' is not understood; a parameter {{{parameter.name}}} or a multiple "
+                                         f"{{{parameter.name}*0.5}} is expected")
                 for name, _ in _PLACE.findall(assignment):
                     if name not in names:
                         raise InputError(f"parameters[{i}].set: there is no parameter {name}, which stands in '{assignment}'")

@@ -16,6 +16,9 @@ from ..program import executable
 from .measurements import refuse_other_dimension
 
 
+BEYOND = "a measured place, with its shift, lies beyond the run"
+
+
 def processors():
     return len(os.sched_getaffinity(0))
 
@@ -49,20 +52,22 @@ class Runs:
             if not (study.parent / "study.json").is_file():
                 self._note_finished(study.parent)
             else:
-                self._note(study.parent)
+                self._note(study.parent, earlier=True)
 
     @property
     def any(self):
         """Whether there are some."""
         return bool(self._places or self._failed)
 
-    def _note(self, batch):
-        """What a batch that has ended left."""
+    def _note(self, batch, earlier=False):
+        """What a batch that has ended left. A wrong input of an earlier session may be one no more, as where a file was mended: it is tried
+        again, but for jobs, which would never end."""
+        lasting = ("numerics failed",) if earlier and not self.jobs else ("numerics failed", "wrong input")
         for run in json.loads((batch / "study.json").read_text(encoding="utf-8"))["runs"]:
             key = run["run"].rpartition("_")[2]
             if run["status"] == "done":
                 self._places[key] = batch / run["run"]
-            elif run["status"] in ("numerics failed", "wrong input"):
+            elif run["status"] in lasting:
                 self._failed[key] = run["message"]
 
     def _note_finished(self, batch):
@@ -80,11 +85,11 @@ class Runs:
         return {"study": self.problem.name, "deck": str(deck), "ranks_per_run": self.problem.options["ranks_per_run"],
                 "collect": {"tables": []}, "variants": [{"name": key, "set": settings} for key, _, settings in missing]}
 
-    def run(self, points):
-        """Has every point of the unit cube (rows) run in every experiment that is not there yet."""
+    def run(self, points, experiments):
+        """Has every point of the unit cube (rows) run in each of the experiments where it is not there yet."""
         wanted = {}
         for x in points:
-            for experiment in self.problem.experiments:
+            for experiment in experiments:
                 settings = self.problem.settings(experiment, x)
                 wanted.setdefault(run_key(experiment, settings), (experiment, settings))
         missing = [(key, *what) for key, what in wanted.items() if key not in self._places and key not in self._failed]
@@ -143,13 +148,17 @@ exec {shutil.which("lampblack") or executable()} sweep "$batch/study.yaml" --out
 """, encoding="utf-8")
         raise JobsWritten(script, len(folders))
 
+    def _of(self, outputs):
+        """The experiments of outputs, in the problem's order."""
+        return [one for one in self.problem.experiments if any(o.experiment is one for o in outputs)]
+
     def place(self, experiment, x):
         """The folder of a run, or none where it failed."""
         return self._places.get(run_key(experiment, self.problem.settings(experiment, x)))
 
-    def failure(self, x):
-        """The message of the first experiment that failed at a point, or nothing."""
-        return next((self._failed[key] for experiment in self.problem.experiments
+    def failure(self, x, outputs):
+        """The message of the first experiment of these outputs that failed at a point, or nothing."""
+        return next((self._failed[key] for experiment in self._of(outputs)
                      if (key := run_key(experiment, self.problem.settings(experiment, x))) in self._failed), "")
 
     def _table(self, folder, name):
@@ -196,13 +205,16 @@ exec {shutil.which("lampblack") or executable()} sweep "$batch/study.yaml" --out
         refuse_other_dimension(output, table[quantity.along].unit, "abscissa")
         along, place = np.asarray(table[quantity.along], float), output.place + shift
         if not along[0] <= place <= along[-1]:
-            raise InputError(f"measurements: {output.name} lies beyond the run, which goes from {along[0]:.6g} to {along[-1]:.6g}"
-                             + (f" ({shift:.4g} is the shift)" if shift else ""))
+            if shift != 0:
+                return np.nan, np.nan
+            raise InputError(f"measurements: {output.name} lies beyond the run, which goes from {along[0]:.6g} to {along[-1]:.6g}; let the deck run further, "
+                             "or leave such rows out by decks[].abscissa_from and abscissa_to")
         return float(np.interp(place, along, values)), float(np.interp(place, along, errors))
 
     def values(self, points, outputs):
-        """Each output at each point (a row a point) and its standard error; nan where the run failed. What is missing is run."""
-        self.run(points)
+        """Each output at each point (a row a point) and its standard error; nan where the run failed, or a shift
+        moves the place beyond it. What is missing is run, of the decks of these outputs alone."""
+        self.run(points, self._of(outputs))
         values, errors = np.full((2, len(points), len(outputs)), np.nan)
         for i, x in enumerate(points):
             for k, output in enumerate(outputs):

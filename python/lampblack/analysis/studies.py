@@ -34,11 +34,13 @@ def _slopes(work, outputs):
     problem = work.problem
     values, _ = work.runs.values(problem.start[None, :], outputs)
     if not np.all(np.isfinite(values)):
-        raise InputError(f"design: a run at the start failed: {work.runs.failure(problem.start)}")
+        raise InputError(f"design: a run at the start failed: {work.runs.failure(problem.start, outputs)}")
     for k, o in enumerate(outputs):
         if o.value is None:
             o.value = float(values[0, k])
             o.error = o.error or o.relative * abs(o.value)
+            if o.error == 0:
+                raise InputError(f"measurements: the error of {o.name} is a share of the run's value, which is 0; give it as a number")
     target = Objective(problem, outputs)
 
     def residuals(points):
@@ -56,7 +58,6 @@ def _choose(work, rows, candidates):
             raise InputError(f"measurements.files: what the candidate {experiment.name} would measure is missing: rows with its quantity, places and errors, "
                              "the value left empty")
     known = [o for o in rows if o.experiment.use == "fit"]
-    work.runs.run(np.concatenate([[problem.start]]))
     slopes = _slopes(work, [o for group in groups for o in group] + known)
     ends = np.cumsum([0, *map(len, groups)])
     parts = [slopes[a:b] for a, b in zip(ends, ends[1:])]
@@ -137,6 +138,10 @@ def _posterior_samples(work, count):
             if p.name not in file:
                 raise ResultsError(f"{path}: this posterior knows no parameter {p.name}")
         every = np.column_stack([p.place(file[p.name][()]) for p in work.problem.parameters])
+    beyond = np.any((every < -1e-9) | (every > 1 + 1e-9), axis=0)
+    if np.any(beyond):
+        p = work.problem.parameters[int(np.argmax(beyond))]
+        raise InputError(f"{path}: samples of {p.name} lie beyond its bounds {p.low:g} and {p.high:g}; give the bounds of the fit, or fit anew")
     draw = np.random.default_rng(work.seed + 1)
     return np.clip(every[draw.choice(len(every), min(count, len(every)), replace=False)], 0, 1)
 
@@ -154,11 +159,11 @@ def propagate(work):
     else:
         points = samples
         found, errors = values, errors = work.asked(samples, outputs, "samples")
-    write_points(work.folder / "points.csv", problem, work.runs, points, outputs, values, errors)
+    write_points(work.file("points.csv"), problem, work.runs, points, outputs, values, errors)
     good = found[np.all(np.isfinite(found), axis=1)]
     head = ["deck", "quantity", "abscissa", "mean", "deviation", *(f"q{q:g}" for q in QUANTILES), "measured", "error"]
     rows = [[o.experiment.name, o.quantity.name, "" if o.place is None else o.place, good[:, k].mean(), good[:, k].std(ddof=1),
              *np.percentile(good[:, k], QUANTILES), "" if o.value is None else o.value, "" if o.value is None else o.error] for k, o in enumerate(outputs)]
     write_table(work.folder / "bands.csv", head, rows)
     work.say(aligned(head[:-2], [row[:-2] for row in rows]))
-    write_record(work.folder / "analysis.json", "propagate", problem, work.runs, {"samples": len(good), "warnings": work.warnings})
+    write_record(work.file("analysis.json"), "propagate", problem, work.runs, {"samples": len(good), "warnings": work.warnings})

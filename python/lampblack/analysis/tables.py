@@ -10,6 +10,7 @@ import numpy as np
 import scipy
 
 from ..program import executable
+from .runs import BEYOND
 
 
 def text_of(value):
@@ -31,11 +32,22 @@ def write_points(path, problem, runs, points, outputs, values, errors, phi=None)
     head += [name for output in outputs for name in (output.name, output.name + "_noise")] + (["phi"] if phi is not None else [])
     rows = []
     for i, x in enumerate(points):
-        message = runs.failure(x)
+        message = runs.failure(x, outputs) or ("" if np.all(np.isfinite(values[i])) else BEYOND)
         row = [*problem.values(x).values(), "failed" if message else "done", message.split("\n")[0]]
         row += [number for k in range(len(outputs)) for number in (values[i, k], errors[i, k])]
         rows.append(row + ([phi[i]] if phi is not None else []))
     write_table(path, head, rows)
+
+
+def _without_nan(value):
+    """JSON has no numbers that are not finite: null."""
+    if isinstance(value, dict):
+        return {key: _without_nan(inner) for key, inner in value.items()}
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [_without_nan(inner) for inner in value]
+    if isinstance(value, (float, np.floating)):
+        return float(value) if np.isfinite(value) else None
+    return value
 
 
 def write_record(path, task, problem, runs, more):
@@ -47,7 +59,7 @@ def write_record(path, task, problem, runs, more):
         "seed": problem.options["design"]["seed"], "runs_begun": runs.begun, "runs_taken": runs.taken, **more,
     }  # fmt: skip
     temporary = path.with_name("." + path.name)
-    temporary.write_text(json.dumps(record, indent=1, default=lambda one: one.tolist()) + "\n", encoding="utf-8")
+    temporary.write_text(json.dumps(_without_nan(record), indent=1, allow_nan=False, default=lambda one: one.tolist()) + "\n", encoding="utf-8")
     temporary.replace(path)
 
 
@@ -105,12 +117,15 @@ def _assign(deck, key, value):
     deck[parts[-1]] = value
 
 
-def write_best(folder, problem, runs, x, words):
-    """best/<deck>.yaml: the decks with the constants in their places; each runs as it is. Needs the package yaml."""
+def write_best(folder, work, x, words):
+    """best/<deck>.yaml: the decks with the constants in their places; each runs as it is. Needs the package yaml, or warns."""
+    problem, runs = work.problem, work.runs
     try:
         import yaml
     except ImportError:
-        print(f"{folder}: the decks with the constants are not written, as python3-yaml is not installed", flush=True)
+        warning = f"{work.folder / 'best'}: the decks with the constants are not written, as PyYAML (Debian: python3-yaml) is not installed"
+        if warning not in work.warnings:
+            work.warn(warning)
         return
     folder.mkdir(exist_ok=True)
     for experiment in problem.experiments:

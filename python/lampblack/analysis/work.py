@@ -7,13 +7,15 @@ import numpy as np
 from ..arrays import table_of_csv
 from ..errors import InputError, NumericsError
 from . import designs
-from .runs import Runs
+from .runs import BEYOND, Runs
 from .surrogate import Surrogate
 
 
 class Work:
-    def __init__(self, problem, folder, ranks=None, jobs=None):
-        self.problem, self.folder = problem, pathlib.Path(folder)
+    """`beside`: the folder is that of a fit, whose files stay as they are."""
+
+    def __init__(self, problem, folder, ranks=None, jobs=None, beside=False):
+        self.problem, self.folder, self.beside = problem, pathlib.Path(folder), beside
         named = problem.options.get("runs")
         self.runs = Runs(problem, problem.folder / named if named else self.folder / "runs", ranks, jobs)
         self.lines, self.warnings = [], []
@@ -25,6 +27,10 @@ class Work:
     @property
     def seed(self):
         return self.options["design"]["seed"]
+
+    def file(self, name):
+        """Where a table, the record or the report is written."""
+        return self.folder / ((("propagated.json" if name == "analysis.json" else f"propagated_{name}")) if self.beside else name)
 
     def say(self, text):
         """On the console and in the report."""
@@ -64,7 +70,12 @@ class Work:
         failed = int(np.sum(~np.all(np.isfinite(values), axis=1)))
         self.say(f"{what}: {len(points)} points, {self.runs.begun - before} new runs" + (f", {failed} points failed" if failed else ""))
         if failed == len(points):
-            raise NumericsError(f"{what}: no point has all its runs: {self.runs.failure(points[0])}")
+            raise NumericsError(f"{what}: no point has all its numbers: {self.runs.failure(points[0], outputs) or BEYOND}")
+        for k, o in enumerate(outputs):
+            lost = int(np.sum(values[:, k] <= 0)) if o.quantity.is_log else 0
+            if lost:
+                self.warn(f"{what}: {lost} of {len(points)} values of {o.name} are not above 0 and have no logarithm; these points are left out. Choose "
+                          f"ranges in which it is above 0, or quantities.{o.quantity.name}.transform: none")
         return values, errors
 
     def surrogates(self, points, values, names, enough=None):
