@@ -228,6 +228,8 @@ def check_failures(run: Analyses) -> None:
     failed = [row for row in points if row["status"] == "failed"]
     assert 0 < len(failed) < 16 and all(float(row["h"]) < 0 and row["message"] for row in failed) and f"{len(failed)} points failed" in said, said
     assert all(not row["lean.end"] for row in failed)
+    run.good("design", options, "failing")  # what was a wrong input is tried again, the others are taken
+    assert json.loads((run.folder / "failing/analysis.json").read_text(encoding="utf-8"))["runs_begun"] == len(failed)
 
 
 def check_refusals(run: Analyses) -> None:

@@ -209,8 +209,8 @@ def fit(work):
     work.say(f"\nobjective {start_value:.4g} at the start, {true_phi:.4g} at the best point (true runs), {freedom} degrees of freedom")
     _residual_table(work, best, problem.start)
     if not np.isfinite(true_phi):
-        work.warn(f"the true run at the best point of the surrogates failed ({work.runs.failure(best, fitted) or 'a number has no logarithm, or lies beyond the run'}): "
-                  "use optimise.on: runs, or smaller ranges")
+        why = work.runs.failure(best, fitted) or "a number has no logarithm, or lies beyond the run"
+        work.warn(f"the true run at the best point of the surrogates failed ({why}): use optimise.on: runs, or smaller ranges")
     elif objective(true) > phi[0]:
         work.warn(f"the true runs have a larger objective at the best point of the surrogates than at the start ({objective(true):.4g}, {phi[0]:.4g}): the "
                   "surrogates are too poor; increase design.points, or use optimise.on: runs")

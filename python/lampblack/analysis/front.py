@@ -83,7 +83,7 @@ def trade_off(work):
     if not np.any(holds):
         raise InputError("trade_off.constraints: no point within the bounds holds them all")
     if not np.all(holds):
-        work.warn(f"{int(np.sum(~holds))} points of the front hold the constraints by no means and are left out")
+        work.warn(f"{int(np.sum(~holds))} points of the front miss a constraint and are left out")
     front = front[holds]
     found, noise = work.asked(front, outputs, "the front by true runs")
     failed = ~np.all(np.isfinite(found), axis=1)
@@ -92,7 +92,8 @@ def trade_off(work):
     true = np.stack([o.quantity.transformed(found[:, k]) for k, o in enumerate(outputs)], axis=1)
     late = int(np.sum(missed_by(true)[~failed] > 0))
     if late:
-        work.warn(f"by true runs {late} points of the front miss a constraint, which they hold by surrogates: increase design.points, or ask for more than is needed")
+        work.warn(f"by true runs {late} points of the front miss a constraint, which they hold by surrogates: increase design.points, or "
+                  "ask for more than is needed")
     predicted = np.stack([o.quantity.back(s(front)) for o, s in zip(outputs, made)], axis=1)
     head = [*(p.name for p in problem.parameters)] + [name for o in outputs for name in (o.name, o.name + "_surrogate", o.name + "_noise")]
     rows = [[*problem.values(x).values(), *(n for k in range(len(outputs)) for n in (found[i, k], predicted[i, k], noise[i, k]))] for i, x in enumerate(front)]

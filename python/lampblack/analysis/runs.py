@@ -112,6 +112,7 @@ class Runs:
 
     def _sweep(self, runs):
         batch = self._batch(runs)
+        (batch / "study.json").unlink(missing_ok=True)  # of runs that all were a wrong input in an earlier session: it would say so again
         words = [executable(), "sweep", str(batch / "study.yaml"), "--out", str(batch)]
         ranks = min(self.ranks, len(runs) * self.problem.options["ranks_per_run"])
         if ranks > 1:
@@ -125,6 +126,10 @@ class Runs:
                 sweep.wait()
                 raise
         code = sweep.returncode
+        if code == 2 and self.any and not (batch / "study.json").is_file():
+            # Not one of these can begin, while others could: it is the points.
+            self._failed.update((key, error_of(code, message).message) for key, *_ in runs)
+            return
         if not (batch / "study.json").is_file() or code > 128 or code < 0:
             raise error_of(code or 1, message)
         self._note(batch)

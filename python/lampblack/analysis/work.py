@@ -30,7 +30,7 @@ class Work:
 
     def file(self, name):
         """Where a table, the record or the report is written."""
-        return self.folder / ((("propagated.json" if name == "analysis.json" else f"propagated_{name}")) if self.beside else name)
+        return self.folder / ({"analysis.json": "propagated.json"}.get(name, f"propagated_{name}") if self.beside else name)
 
     def say(self, text):
         """On the console and in the report."""
