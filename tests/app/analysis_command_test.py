@@ -199,8 +199,10 @@ def check_design_and_trade_off(run: Analyses) -> None:
 
 def check_noise(run: Analyses) -> None:
     """Of stochastic populations the standard error is in the objective; a design by jobs, which then goes on."""
-    options = {"analysis": "a kernel", "decks": [{"deck": str(POPULATION), "name": "k", "set": ["repeats=8", "methods={mmc: {type: mmc, particles: 200}}"]}],
-               "parameters": [{"name": "rate", "from": 5e-7, "to": 2e-6, "scale": "log", "set": ["processes.coagulation.rate={rate} cm^3/s"]}],
+    options = {"analysis": "a kernel", "decks": [{"deck": str(POPULATION), "name": "k", "set": ["repeats=8", "methods={mmc: {type: mmc, particles: 200}}"],
+                                                 "weight": 4}],
+               "parameters": [{"name": "rate", "from": 5e-7, "to": 2e-6, "scale": "log", "set": ["processes.coagulation.rate={rate} cm^3/s"],
+                               "prior": {"type": "lognormal", "mean": 1e-6, "deviation": 5}}],
                "quantities": {"M0": {"result": "methods.mmc.moments.0", "error": "methods.mmc.standard_errors.0", "transform": "log10"}},
                "measurements": {"files": ["data.csv"]}, "design": {"points": 4}, "optimise": {"starts": 1, "step": 0.2}}  # fmt: skip
     run.file("data.csv", f"deck,quantity,value [1/cm^3],error [%],source\nk,M0,{1e6 * 2 / 52},1,exact\n")
@@ -215,6 +217,9 @@ def check_noise(run: Analyses) -> None:
     noise, s = (float(residual[name]) for name in ("best_noise", "deviation"))
     expected = np.hypot(0.01, noise / float(residual["best"])) / np.log(10)
     assert noise > 0 and abs(s / expected - 1) < 1e-6, (noise, s, expected)
+    apart = np.log10(float(residual["measured"]) / float(residual["best"])) / s  # whatever the weight
+    assert abs(float(residual["residual_best"]) - apart) < 1e-6 * abs(apart), (residual, apart)
+    assert json.loads((run.folder / "kernel/analysis.json").read_text(encoding="utf-8"))["degrees_of_freedom"] == 1  # a measurement and a prior
 
 
 def check_failures(run: Analyses) -> None:
