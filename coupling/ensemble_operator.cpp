@@ -156,7 +156,7 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
       resampled_ = startResampled_;
     }
   }
-  inStep_ = true;
+  inStep_ = hasMoved_ = true;
   work_.beginStep();
   lastStep_ = dt;
   stepEnd_ = time + dt;

@@ -178,6 +178,7 @@ class EnsembleOperator : public Operator {
   std::vector<double> startWaiting_, startReserve_;
   std::vector<double> startResampled_;
   bool inStep_ = false;
+  bool hasMoved_ = false;            // in the present turn
   double lastStep_ = 0.0;            // s
   double stepEnd_ = 0.0;             // s
   std::int64_t steps_ = 0;           // since the start

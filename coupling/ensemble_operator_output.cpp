@@ -57,7 +57,7 @@ std::vector<double> EnsembleOperator::historyValues(const State& state) {
   peak_ = peak.value;
   place_ = peak.place;
   std::array<double, 4> sums{0.0, 0.0, std::accumulate(resampled_.begin(), resampled_.end(), 0.0),
-                             turn_ == Turn::Gas ? 0.0 : static_cast<double>(transport_.limited())};
+                             !hasMoved_ ? 0.0 : static_cast<double>(transport_.limited())};
   const ParticleRows& rows = particles_->rows();
   for (const std::vector<double>& population : populations_) {
     if (rows.isEmpty(population)) continue;
@@ -70,7 +70,7 @@ std::vector<double> EnsembleOperator::historyValues(const State& state) {
           sums[0],
           sums[1],
           sums[2],
-          turn_ == Turn::Gas ? 0.0 : static_cast<double>(transport_.parts()),
+          !hasMoved_ ? 0.0 : static_cast<double>(transport_.parts()),
           sums[3],
           since.value_or(std::numeric_limits<double>::quiet_NaN()),
           statistics_ ? static_cast<double>(statistics_->blocks()) : 0.0};

@@ -16,6 +16,7 @@ void EnsembleOperator::beginAverages(double block, std::optional<double> from) {
 
 void EnsembleOperator::beginParticles(State& state, double block, std::optional<double> averagedFrom) {
   turn_ = Turn::Particles;
+  hasMoved_ = false;
   for (int cell = 0; cell < context_.mesh.owned; ++cell) setAmounts(state, cell);
   context_.halo.update(state.carried, state.carriedCount());
   beginAverages(block, averagedFrom);
@@ -39,6 +40,7 @@ void EnsembleOperator::addToMeans(const State& state) {
 
 void EnsembleOperator::beginGas(State& state) {
   turn_ = Turn::Gas;
+  hasMoved_ = false;
   if (meanExchange_) {
     std::vector<double> gained(reserve_.size());
     for (std::size_t i = 0; i < gained.size(); ++i) gained[i] = reserve_[i] - reserveBefore_[i];

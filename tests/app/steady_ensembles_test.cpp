@@ -76,7 +76,7 @@ TEST(SteadyEnsembles, GoOnFromACheckpointAsIfTheyHadNotStopped) {
     const std::vector<double>& time = whole.history.at("time");
     ASSERT_LT(step + 1, time.size());
     ++(time[step + 1] == time[step] ? stands : goes);
-    runPipe(on, settings, all / fmt::format("checkpoint/step_{:06}.h5", step));
+    runPipe(on, saving, all / fmt::format("checkpoint/step_{:06}.h5", step));
     test::expectSameBits(test::readBack(on / "results.h5"), whole);
   }
   EXPECT_EQ(stands, 1);

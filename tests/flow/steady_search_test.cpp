@@ -14,6 +14,7 @@ namespace lampblack::flow {
 namespace {
 
 using Phase = SteadySearch::Phase;
+using testing::AllOf;
 using testing::HasSubstr;
 
 constexpr double high = 0.1;  // a residual far from any end
@@ -195,7 +196,7 @@ TEST(SteadySearch, GoesBackWhereTheResidualStandsStill) {
   search.addIteration(0.88 * high, 1.0);
   EXPECT_EQ(search.phase(), Phase::Steps);
   EXPECT_FALSE(search.takesBack());
-  EXPECT_THAT(search.whyNot(), HasSubstr("8.90e-02 in 100 iterations"));
+  EXPECT_THAT(search.whyNot(), AllOf(HasSubstr("in 100 iterations"), HasSubstr("below 8.90e-02")));
 }
 
 // The largest residual, of a trace, stands still all the while.
