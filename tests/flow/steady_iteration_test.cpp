@@ -209,10 +209,10 @@ TEST_F(SteadyIterations, EndWhereStepsDo) {
   SteadyIteration iteration(b.context, iterated, {}, beside.all());
   iteration.iterate(iterated);
   EXPECT_GE(-largest(b.mesh, [&](int c) { return -iterated.carried[at(c)]; }), 0.0);
-  // From a few millionths on round-off decides how many more it takes: 56 to 143 in all, by compiler and ranks.
+  // From a few millionths on round-off decides how many more it takes: 56 to 296 in all, by compiler and ranks.
   int count = 0, untilMillionths = 0;
   double measure = 1.0;
-  for (; count < 200 && measure > 2e-10; ++count) {
+  for (; count < 400 && measure > 2e-10; ++count) {
     measure = iteration.iterate(iterated).measure;
     if (measure > 5e-6) untilMillionths = count + 1;
   }
