@@ -14,6 +14,16 @@
 
 namespace lampblack::test {
 
+// Hot nitrogen with what silica comes of.
+struct Nitrogen {
+  std::vector<double> concentrations = {0, 0};  // mol/m3, of the precursor and the product
+  [[nodiscard]] ParticleGas gas() const {
+    CarrierGas carrier{1173, 101325, 0, 4.6e-5, 0.028014};
+    carrier.density = carrier.pressure * carrier.meanMolecularWeight / (constants::gasConstant * carrier.temperature);
+    return {carrier, concentrations};
+  }
+};
+
 // Units of silica of a sphere of the diameter (m).
 inline TreeUnits spherical(const TreeMaterial& material, double diameter) {
   TreeUnits units{1, 1.9, 0.2};
