@@ -1,8 +1,8 @@
-// Reactions in turbulence: times and shares against their definitions, cells that react at a share, and one cell that
-// gas flows through against the root of its equation.
+// Cells that react at a share of their rates, in work sharing, coupled with others, and as fine structures.
 #include <gtest/gtest.h>
 
 #include "combustion_fixture.hpp"
+#include "core/group_failure.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/models/combustion/fine_structure_cells.hpp"
 #include "flow/models/reaction_operator.hpp"
@@ -10,106 +10,6 @@
 
 namespace lampblack::test {
 namespace {
-
-using Kind = ChemicalTime::Kind;
-
-TEST(ChemicalTimes, AreThoseOfOneReaction) {
-  const double k = 200.0, density = 1.3, quarter = 0.25;
-  const std::vector<double> Y{quarter, 1.0 - quarter};
-  const auto timeOf = [&](Kind kind, const std::vector<std::string>& reactions, std::span<const double> of) {
-    const Mechanism mechanism = twoGases(reactions);
-    return ChemicalTime(mechanism, kind).of(700.0, density, of);
-  };
-  const std::vector<std::string> one{becomes(k)}, beside{becomes(k), becomes(0.0, false, "B => A")},
-      twice{becomes(0.5 * k, true), becomes(0.5 * k, true)};
-  const double time = 1.0 / (k * quarter);
-  EXPECT_NEAR(timeOf(Kind::ReactionsOf6, one, Y), time, 1e-12 * time);
-  EXPECT_NEAR(timeOf(Kind::WeightedReactions, one, Y), time, 1e-12 * time);
-  // Of A; B, of which there is more, grows as fast as A falls and would take three times as long.
-  EXPECT_NEAR(timeOf(Kind::SlowestSpecies, one, Y), 3.0 * time * quarter, 1e-12 * time);
-  const std::vector<double> rich{0.9, 0.1};
-  EXPECT_NEAR(timeOf(Kind::SlowestSpecies, one, rich), 1.0 / k, 1e-12 / k);
-  EXPECT_NEAR(timeOf(Kind::ReactionsOf6, beside, Y), 2.0 * time, 1e-12 * time);
-  EXPECT_NEAR(timeOf(Kind::WeightedReactions, beside, Y), time, 1e-12 * time);
-  EXPECT_NEAR(timeOf(Kind::ReactionsOf6, twice, Y), 2.0 * time, 1e-12 * time);
-  EXPECT_NEAR(timeOf(Kind::WeightedReactions, twice, Y), 2.0 * time, 1e-12 * time);
-  // Slow, and none at all.
-  const std::vector<std::string> slow{becomes(1e-3)};
-  for (const Kind kind : {Kind::ReactionsOf6, Kind::WeightedReactions, Kind::SlowestSpecies}) {
-    EXPECT_EQ(timeOf(kind, slow, Y), ChemicalTime::longest);
-    EXPECT_EQ(timeOf(kind, {becomes(0.0)}, Y), ChemicalTime::longest);
-  }
-}
-
-TEST(ChemicalTimes, WeighBothDirections) {
-  const double k = 0.2;  // m^3/mol/s
-  const Mechanism mechanism = twoGases({becomes(1e3 * k, false, "2 A <=> 2 B")});
-  // Of equal gases the reverse constant is the forward one.
-  const double density = 1.3, c = density * 0.5 / mechanism.molecularWeights()[0], w = 2.0 * k * c * c;
-  const std::vector<double> Y{0.5, 0.5};
-  EXPECT_NEAR(ChemicalTime(mechanism, Kind::WeightedReactions).of(700.0, density, Y), 2.0 * c * 2.0 * w / (2.0 * w * w),
-              1e-9 * c / w);
-  EXPECT_NEAR(ChemicalTime(mechanism, Kind::ReactionsOf6).of(700.0, density, Y), 2.0 * c / w, 1e-9 * c / w);
-  EXPECT_EQ(ChemicalTime(mechanism, Kind::SlowestSpecies).of(700.0, density, Y), ChemicalTime::longest);
-}
-
-// Against differences, at constant pressure. Hydrogen's third bodies are left out.
-TEST(ChemicalTimes, HaveSlopes) {
-  const Mechanism mechanism =
-      twoGases({becomes(40.0, false, "2 A <=> 2 B"), becomes(300.0), becomes(70.0, false, "B => A")});
-  const Thermo thermo(mechanism);
-  for (const Kind kind : {Kind::WeightedReactions, Kind::ReactionsOf6}) {
-    ChemicalTime time(mechanism, kind);
-    const std::vector<double> Y{0.3, 0.7};
-    const double T = 700.0, p = 101325.0, small = 1e-5;
-    const auto at = [&](double temperature, std::span<const double> of) {
-      return std::log(time.of(temperature, thermo.density(temperature, p, of), of));
-    };
-    std::vector<double> slopes(3);
-    time.slopes(T, thermo.density(T, p, Y), Y, slopes);
-    for (std::size_t j = 0; j < 2; ++j) {
-      std::vector<double> above = Y, below = Y;
-      above[j] += small;
-      below[j] -= small;
-      const double slope = (at(T, above) - at(T, below)) / (2.0 * small);
-      EXPECT_NEAR(slopes[j], slope, 1e-6 * std::abs(slope)) << j;
-    }
-    const double byT = (at(T + 0.1, Y) - at(T - 0.1, Y)) / 0.2;
-    EXPECT_NEAR(slopes[2], byT, 1e-4 * std::abs(byT));
-  }
-  ChemicalTime slowest(mechanism, Kind::SlowestSpecies);
-  std::vector<double> slopes(3, 1.0);
-  slowest.slopes(700.0, 0.5, std::vector<double>{0.3, 0.7}, slopes);
-  EXPECT_EQ(slopes, std::vector<double>(3, 0.0));
-}
-
-TEST(MixingTimes, GoByTheEddies) {
-  const Eddies eddies{.energy = 8.0, .dissipation = 400.0, .viscosity = 2e-5, .eddyViscosity = 3.4e-4};
-  const double kolmogorov = std::sqrt(2e-5 / 400.0), integral = 8.0 / 400.0;
-  EXPECT_DOUBLE_EQ(mixingTime(eddies, MixingTime::Effective, 0.3), 0.3 * std::sqrt(3.6e-4 / 400.0));
-  EXPECT_DOUBLE_EQ(mixingTime(eddies, MixingTime::Kolmogorov, 0.3), kolmogorov);
-  EXPECT_DOUBLE_EQ(mixingTime(eddies, MixingTime::Geometric, 0.3), std::sqrt(kolmogorov * integral));
-  EXPECT_DOUBLE_EQ(mixingTime(eddies, MixingTime::Integral, 0.5), 0.5 * integral);
-  EXPECT_EQ(stirredShare(1e-3, mixingTime({8.0, 0.0, 2e-5, 0.0}, MixingTime::Effective, 0.3)), 0.0);
-  EXPECT_DOUBLE_EQ(stirredShare(1e-3, 3e-3), 0.25);
-  EXPECT_EQ(stirredShare(1e-3, 0.0), 1.0);
-}
-
-TEST(FineStructuresOfEddies, HaveTheSharesOfTheThreeVersions) {
-  const Eddies eddies{.energy = 8.0, .dissipation = 400.0, .viscosity = 2e-5, .eddyViscosity = 3.4e-4};
-  FineStructures fine;
-  const double size = 2.1377 * std::pow(2e-5 * 400.0 / 64.0, 0.25);
-  EXPECT_NEAR(fine.size(eddies), size, 1e-12);
-  EXPECT_NEAR(fine.mixing(eddies), 0.4083 * std::sqrt(2e-5 / 400.0), 1e-15);
-  EXPECT_DOUBLE_EQ(fine.share(0.5), 0.25 / 0.75);
-  fine.powerBelow = 3.0;
-  EXPECT_DOUBLE_EQ(fine.share(0.5), 0.25 / 0.875);
-  fine.powerAbove = 3.0;
-  EXPECT_DOUBLE_EQ(fine.share(0.5), 0.125 / 0.875);
-  EXPECT_EQ(fine.share(0.99), 1.0);
-  EXPECT_EQ(fine.share(1.5), 1.0);
-  EXPECT_EQ(fine.share(fine.size({0.0, 400.0, 2e-5, 0.0})), 1.0);
-}
 
 class Mixed : public testing::Test {
  protected:
@@ -294,6 +194,7 @@ TEST_F(Mixed, FineStructuresTakeLongIntervalsInParts) {
   EXPECT_GT(steps, 19.0);
   EXPECT_NEAR(results[0].temperature, temperature, 1e-6 * temperature);
   for (std::size_t k = 0; k < n; ++k) EXPECT_NEAR(whole[k], parts[k], 1e-9);
+  EXPECT_THROW(reactor->advance({&cell, 1}, 1.0, results), FailureInGroup);  // half a million of them
 }
 
 // Cells that go together with their neighbours take their shares along.
@@ -372,131 +273,19 @@ TEST_F(Mixed, OperatorsTellOfEddiesAndHeat) {
   weak.endSweep(state);
   EXPECT_EQ(weak.historyValues(state)[4], 1.0);
   EXPECT_EQ(weak.present()[0].reactingShare, 1.0);
-}
-
-// One cell through which gas flows, of A that becomes B in eddies that stay: Y_in - Y = t k kappa Y with kappa =
-// 1/(1 + tau_mix k Y), t the time that gas takes through it; of fine structures Y_in - Y = t chi (1 - e^(-k tau*))
-// Y/tau*.
-class OneCell : public testing::Test {
- protected:
-  static constexpr double k = 4e3, energy = 2.0, dissipation = 240.0, speed = 2.0, length = 0.004;
-  struct Found {
-    double Y, share, residual;
-    double slope, difference;  // of ln share by the mass fraction of A
-  };
-  static Found steady(CombustionOperator::Options options, double dt) {
-    Gas two(twoGases({becomes(k)}));
-    const std::vector<double> fresh{0.9, 0.1};
-    const std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Symmetry, 0, true),
-                                  opening(BoundaryKind::Inlet, 1, false, speed, 600.0, fresh),
-                                  opening(BoundaryKind::Outlet, 1, true, 0.0, 600.0, fresh)};
-    MeshSpec spec;
-    spec.geometry = Geometry::Planar;
-    spec.vertices = {uniformAxis(0.001, 1), uniformAxis(length, 1), {}};
-    std::vector<BoundaryCondition> conditions;
-    for (const Side& s : sides) {
-      spec.patches.push_back(s.patch);
-      conditions.push_back(s.condition);
-    }
-    Box cell(spec, conditions, {}, MPI_COMM_SELF, two);
-    const auto model = std::make_shared<PointwiseModel<StillEddies>>();
-    const double eddies = 0.09 * energy * energy / dissipation;
-    State state = cell.stateWith(
-        {TurbulenceOperator::blockOf(*model, conditions, std::vector<FreeStream>(4, {5e-5, eddies, energy}))},
-        [&](const Vector3&) {
-          return Box::Local{{0.0, speed}, 600.0, fresh};
-        });
-    TransportOperator transport(cell.context, state);
-    const bool isFine = options.model == CombustionOperator::Model::EddyDissipation;
-    ConstantPressureReactor::Options tight{.relativeTolerance = 1e-10, .negligibleChange = 0.0};
-    ReactionOperator chemistry =
-        isFine
-            ? ReactionOperator(cell.context, {}, std::make_unique<FineStructureCells>(two.mechanism, two.thermo, tight))
-            : ReactionOperator(cell.context, {.shareWork = true, .reactor = tight, .keepFailed = {}});
-    TurbulenceOperator turbulence(cell.context, state, model, transport.properties());
-    CombustionOperator combustion(cell.context, options, turbulence,
-                                  [&](const State& of) { return chemistry.heatReleases(of); });
-    chemistry.mixBy(combustion);
-    turbulence.setStart(state, {5e-5, eddies, energy});
-    const std::vector<Operator*> all{&transport, &chemistry, &turbulence, &combustion};
-    transport.initialise(state, dt);
-    const auto end = [&] {
-      for (Operator* op : all) op->endStep(state);
-      for (Operator* op : all) op->endSweep(state);
-    };
-    end();
-    for (int step = 0; step * dt < 20.0 * length / speed; ++step) {
-      for (Operator* op : all) op->advance(state, step * dt, dt);
-      end();
-    }
-    FlowResidual residual(cell.context, state, VelocityScheme::Limited, all);
-    const double left = residual.evaluate(state).species[0];
-    std::vector<double> slopes(3);
-    combustion.of(state);
-    combustion.slopesOfShare(state, 0, slopes);
-    State richer = state;
-    const double more = 1e-6, share = combustion.present()[0].reactingShare;
-    richer.Y[0] += more;
-    const double difference = std::log(combustion.of(richer)[0].reactingShare / share) / more;
-    return {state.Y[0], share, left / (state.density[0] * speed * 0.001), slopes[0], difference};
-  }
-};
-
-TEST_F(OneCell, IsTheRootOfItsEquationWhateverTheStep) {
-  CombustionOperator::Options options;
-  const double t = length / speed, viscosity = 0.0;
-  for (const auto kind : {Kind::WeightedReactions, Kind::SlowestSpecies}) {
-    options.chemicalTime = kind;
-    options.mixingTime = MixingTime::Integral;  // without the viscosity of the molecules
-    const double mixing = 0.3 * energy / dissipation + viscosity;
-    const Found found = steady(options, 1e-4), withLongSteps = steady(options, 7e-4);
-    double low = 0.0, high = 0.9;
-    const auto chemical = [&](double Y) {
-      return kind == Kind::WeightedReactions ? 1.0 / (k * Y) : std::max(1.0, (1.0 - Y) / Y) / k;
-    };
-    const auto excess = [&](double Y) { return t * k * stirredShare(chemical(Y), mixing) * Y - (0.9 - Y); };
-    for (int i = 0; i < 100; ++i) (excess(0.5 * (low + high)) > 0.0 ? high : low) = 0.5 * (low + high);
-    report(fmt::format("Y {:.9f}, of steps seven times as long {:.9f}, root {:.9f}, kappa {:.4f}", found.Y,
-                       withLongSteps.Y, low, found.share));
-    EXPECT_NEAR(found.Y, low, 1e-6);
-    EXPECT_NEAR(withLongSteps.Y, found.Y, 1e-7);
-    EXPECT_NEAR(found.share, stirredShare(chemical(low), mixing), 1e-6);
-    EXPECT_LT(std::abs(found.residual), 1e-6);
-    if (kind == Kind::WeightedReactions) {
-      EXPECT_NEAR(found.slope, found.difference, 1e-4 * std::abs(found.difference));
-    } else {
-      EXPECT_EQ(found.slope, 0.0);
-    }
-  }
-}
-
-TEST_F(OneCell, OfFineStructuresIsTheRootWhateverTheStep) {
-  CombustionOperator::Options options;
+  // Eddies that dissipate nothing never mix.
+  std::ranges::fill(state.eddyViscosity, eddies);
+  for (std::size_t i = 1; i < state.carried.size(); i += 2) state.carried[i] = 0.0;
   options.model = CombustionOperator::Model::EddyDissipation;
-  const Found found = steady(options, 1e-4), withLongSteps = steady(options, 7e-4);
-  EXPECT_NEAR(withLongSteps.Y, found.Y, 1e-7);
-  EXPECT_LT(std::abs(found.residual), 1e-6);
-  // By the viscosity of the gas at 600 K, which the share tells.
-  const FineStructures fine;
-  const double size = std::sqrt(found.share / (1.0 + found.share));
-  const double viscosity = std::pow(size / fine.length, 4) * energy * energy / dissipation;
-  EXPECT_NEAR(viscosity, 5.2e-5, 0.4e-5);
-  const double time = fine.time * std::sqrt(viscosity / dissipation);
-  const double rate = found.share / time * -std::expm1(-k * time);
-  EXPECT_NEAR(found.Y, 0.9 / (1.0 + rate * length / speed), 1e-6);
-}
-
-// Where eddies are weaker than a tenth of the molecules the reactions are those of the mean, or are not.
-TEST_F(OneCell, ReactsAsItIsWhereTurbulenceDiesOut) {
-  CombustionOperator::Options options;
-  const double perMolecules = 0.09 * energy * energy / dissipation / 5.2e-5;
-  EXPECT_LT(steady(options, 4e-4).share, 0.9);
-  options.laminarBelow = 2.0 * perMolecules;
-  const Found found = steady(options, 4e-4);
-  EXPECT_EQ(found.share, 1.0);
-  EXPECT_NEAR(found.Y, 0.9 / (1.0 + k * length / speed), 1e-6);
-  options.laminarBelow = 0.0;
-  EXPECT_LT(steady(options, 4e-4).share, 0.9);
+  CombustionOperator fine(box.context, options, turbulence,
+                          [&](const State&) { return std::vector<double>(at(box.mesh.owned)); });
+  for (const CellMixing& mixing : fine.of(state)) {
+    EXPECT_EQ(mixing.reactingShare, 0.0);
+    EXPECT_EQ(mixing.fineTime, 0.0);
+  }
+  fine.endSweep(state);
+  EXPECT_TRUE(std::isnan(fine.historyValues(state)[1]));
+  EXPECT_EQ(fine.closingLines().at(0), "combustion: no heat is released");
 }
 
 }  // namespace

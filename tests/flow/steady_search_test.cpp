@@ -36,6 +36,31 @@ void pass(SteadySearch& from, SteadySearch& to) {
   kept.restore([&](StateArchive& archive) { to.saveOrLoad(archive); });
 }
 
+// As many iterations and returns as at the start; what was found before is not found any more.
+TEST(SteadySearch, GoesOnWhereWhatActsHasChanged) {
+  SteadySearch search({.residual = 1e-7, .iterations = 10});
+  steps(search);
+  for (int i = 0; i < 8; ++i) search.addIteration(high / (i + 1), 1.0);
+  search.addIteration(1e-8, 1.0);
+  ASSERT_TRUE(search.isSteady());
+  search.resume(high, 2.0);
+  EXPECT_FALSE(search.isSteady());
+  EXPECT_EQ(search.phase(), Phase::Iterations);
+  SteadySearch other({.residual = 1e-7, .iterations = 10});
+  pass(search, other);
+  for (SteadySearch* of : {&search, &other}) {
+    for (int i = 0; i < 9; ++i) of->addIteration(high / (i + 1), 2.0);
+    EXPECT_FALSE(of->isGivenUp());
+    of->addIteration(high / 10, 2.0);
+    EXPECT_TRUE(of->isGivenUp());
+  }
+  SteadySearch near({.residual = 1e-7});
+  steps(near);
+  near.addIteration(1e-8, 1.0);
+  near.resume(1e-8, 1.0);
+  EXPECT_TRUE(near.isSteady());
+}
+
 TEST(SteadySearch, OfAnotherVersionsCheckpointIsRefused) {
   StateBackup kept(0, 0);
   kept.save([](StateArchive& archive) {

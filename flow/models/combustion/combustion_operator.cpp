@@ -26,8 +26,7 @@ CombustionOperator::CombustionOperator(const FlowContext& context, const Options
       chemicalTime_(context.mechanism, options.chemicalTime),
       present_(static_cast<std::size_t>(context.mesh.owned)),
       ofState_(present_.size()),
-      times_(present_.size()),
-      timesOfState_(present_.size()) {
+      times_(present_.size()) {
   if (!turbulence.knowsDissipation() && !options.dissipationOfShear)
     throw InputError("combustion needs a model of turbulence that knows its dissipation");
 }
@@ -37,8 +36,10 @@ void CombustionOperator::find(const State& state, std::span<CellMixing> mixing, 
   inEachCell(context_.mesh, [&](int c) {
     const auto cell = static_cast<std::size_t>(c);
     const Eddies eddies = turbulence_.eddies(state, c, options_.dissipationOfShear);
-    Times& of = times[cell];
-    of.chemical = chemicalTime_.of(state.temperature[cell], state.density[cell], {&state.Y[cell * n], n});
+    Times of;
+    // Fine structures do not ask for it.
+    if (options_.model == Model::PartiallyStirred || !times.empty())
+      of.chemical = chemicalTime_.of(state.temperature[cell], state.density[cell], {&state.Y[cell * n], n});
     if (options_.model == Model::PartiallyStirred) {
       of.mixing = mixingTime(eddies, options_.mixingTime, options_.mixingConstant);
       mixing[cell] = {isLaminar(eddies) ? 1.0 : stirredShare(of.chemical, of.mixing), 0.0};
@@ -49,11 +50,12 @@ void CombustionOperator::find(const State& state, std::span<CellMixing> mixing, 
                          ? CellMixing{0.0, 0.0}  // what never mixes does not react
                          : CellMixing{options_.fine.share(options_.fine.size(eddies)), of.mixing};
     }
+    if (!times.empty()) times[cell] = of;
   });
 }
 
 std::span<const CellMixing> CombustionOperator::of(const State& state) {
-  find(state, ofState_, timesOfState_);
+  find(state, ofState_);
   return ofState_;
 }
 

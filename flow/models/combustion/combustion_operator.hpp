@@ -60,7 +60,8 @@ class CombustionOperator : public Operator, public MixingModel {
   struct Times {
     double chemical = 0.0, mixing = 0.0;  // s
   };
-  void find(const State& state, std::span<CellMixing> mixing, std::span<Times> times);
+  // `times`: empty where nobody asks for them.
+  void find(const State& state, std::span<CellMixing> mixing, std::span<Times> times = {});
   [[nodiscard]] double damkoehler(std::size_t cell) const;
   [[nodiscard]] bool isLaminar(const Eddies& eddies) const {
     return eddies.eddyViscosity < options_.laminarBelow * eddies.viscosity;
@@ -72,7 +73,7 @@ class CombustionOperator : public Operator, public MixingModel {
   HeatRelease heatRelease_;
   ChemicalTime chemicalTime_;
   std::vector<CellMixing> present_, ofState_;
-  std::vector<Times> times_, timesOfState_;
+  std::vector<Times> times_;
   static constexpr std::size_t told = 5;
   std::array<double, told> told_{};  // of the last row of the history
 };

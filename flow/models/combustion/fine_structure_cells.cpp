@@ -1,5 +1,7 @@
 #include "flow/models/combustion/fine_structure_cells.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +12,8 @@ namespace lampblack::flow {
 namespace {
 
 constexpr double longestPart = 0.5;  // of tau*/chi
-constexpr double unitTime = 1.0;     // s
+constexpr double mostPartsOfAStep = 1e5;
+constexpr double unitTime = 1.0;  // s
 
 }  // namespace
 
@@ -77,7 +80,13 @@ void FineStructureCells::advance(std::span<const Cell> cells, double dt, std::sp
     if (!(time > 0.0)) continue;
     results[i] = {};
     results[i].isSkipped = 1.0;
-    parts_[i] = std::max(static_cast<int>(std::ceil(share * dt / (time * longestPart))), 1);
+    const double parts = std::ceil(share * dt / (time * longestPart));
+    if (!(parts <= mostPartsOfAStep))
+      throw FailureInGroup(fmt::format("fine structures mix within {:.3g} s, of which a step of {:.3g} s has too many; "
+                                       "shorter steps help, or a larger combustion.laminar_below",
+                                       time / share, dt),
+                           i);
+    parts_[i] = std::max(static_cast<int>(parts), 1);
   }
   for (int part = 0;; ++part) {
     which_.clear();
