@@ -258,8 +258,10 @@ int EnsembleTransport::findParts(const Gas& gas, double dt) {
       out += std::max(outflow(gas, face, cell), 0.0) + stirredThrough(gas, face);
       if (!diffuses(face)) continue;
       const double* D = diffusivityOf(gas, cell) + at.node;
-      out += gas.faceDensity[face] * m.area[face] / m.distance[face] * (D[0] + at.part * (D[1] - D[0])) /
-             std::pow(sphereDiameter(volume), 2);
+      const double ofVolume = (D[0] + at.part * (D[1] - D[0])) / std::pow(sphereDiameter(volume), 2);
+      out += m.high[face] >= 0
+                 ? gas.faceDensity[face] * m.area[face] / m.distance[face] * ofVolume
+                 : conductanceToWall(context_, gas.state, gas.properties, face, gas.faceDensity[face], ofVolume);
     }
     most = std::max(most, dt * out / std::min(massOf(gas, cell, 0.0), massOf(gas, cell, 1.0)));
   }

@@ -3,9 +3,9 @@
 //
 // What is made comes at its mean rate. What is taken goes with the mass fraction that is there, at the rate per mass
 // fraction at which the particles took it: no gas gives what it does not have, and where the gas is that in which the
-// particles were, the rates are theirs. Rates go half of the way to new ones, then as far as the last time tells:
-// particles that grew in a gas without them take far too much, those that grow in what is left far too little, and so
-// on. docs/theory/ensembles_in_cells.md, "In turn".
+// particles were, the rates are theirs. The heat goes at its mean rate, which is theirs there too. Rates go half of the
+// way to new ones, then as far as the last time tells: particles that grew in a gas without them take far too much,
+// those that grow in what is left far too little, and so on. docs/theory/ensembles_in_cells.md, "In turn".
 #pragma once
 
 #include <cstddef>

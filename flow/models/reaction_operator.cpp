@@ -170,8 +170,11 @@ bool ReactionOperator::findOutrunning(const State& state, double dt) {
     if (grows == 0.0 && change < moreChange * askedChange_[cell] && ++askedAgo_[cell] < stepsUnasked) continue;
     askedChange_[cell] = change;
     askedAgo_[cell] = 0.0;
-    const double growth = growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n},
-                                         dt, mixingOf(cell).reactingShare);
+    const CellMixing mixing = mixingOf(cell);
+    double growth = growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n}, dt,
+                                   mixing.reactingShare);
+    // Nothing in a cell goes faster than its fine structures mix with it.
+    if (mixing.fineTime > 0.0) growth = std::min(growth, mixing.reactingShare / mixing.fineTime);
     double& fastest = fastest_[cell];
     const double speed = largest / state.density[cell];
     grows = std::max(growth, speed < slowShare * fastest ? forgotten * grows : grows);

@@ -283,3 +283,13 @@ def snapshot(folder: pathlib.Path) -> dict:
                                         hashlib.sha256(path.read_bytes()).hexdigest() if path.is_file() else "folder")
         for path in sorted(folder.rglob("*"))
     }
+
+
+def refused(error: type, words: str, work, *arguments) -> None:
+    """The call raises that error, and its text has the words."""
+    try:
+        work(*arguments)
+    except error as told:
+        assert words in str(told), f"'{words}' is not in: {told}"
+        return
+    raise AssertionError(f"not refused: {words}")
