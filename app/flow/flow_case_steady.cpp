@@ -18,7 +18,6 @@ constexpr const char* mode = "time.mode";
 constexpr const char* steadySection = "time.steady";
 constexpr const char* stabilitySection = "time.steady.stability";
 constexpr int usualAttempts = 2;
-const std::vector<std::string> populations{"ensemble", "trees"};
 // Of a mesh on which a flame is sought from the deck's own start; on finer ones from that of a coarser.
 constexpr int mostCellsAlone = 3000, mostCoarserMeshes = 5;
 
@@ -219,21 +218,21 @@ void addSteadyKeys(DeckSchema& schema) {
                "that gas.")
                .byDefault(fmt::format("{}", rounds.most))
                .atLeast(1)
-               .onlyWith(descriptionKey, populations))
+               .onlyWith(ofPopulations()))
       .add(numberKey("time.steady.agreement",
                      "Change of temperature, mass fractions and velocity of the gas from one "
                      "round to the next, of the range of each in the domain, with which the rounds end. What the gas "
                      "feels of the particles has the noise of their averages, by which it differs from round to round.")
                .byDefault(fmt::format("{}", rounds.tolerance))
                .above(0)
-               .onlyWith(descriptionKey, populations))
+               .onlyWith(ofPopulations()))
       .add(integerKey("time.steady.blocks",
                       "Blocks (particles.statistics.block) of the averages of the last round; "
                       "those before, while "
                       "the gas still changes by more than three times 'agreement', have the least number.")
                .byDefault(fmt::format("{}", rounds.blocks))
                .atLeast(static_cast<double>(leastBlocks))
-               .onlyWith(descriptionKey, populations));
+               .onlyWith(ofPopulations()));
   schema.add(search, {"time.mode", {"steady"}});
   const ModeOptions modes;
   schema
