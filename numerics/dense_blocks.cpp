@@ -113,21 +113,22 @@ bool factoriseThin(std::size_t m, std::size_t n, double* A, std::size_t ld, int*
 }
 
 // y += alpha A x, the columns of A being ld apart: eight of them for each pass over y.
-void addColumns(std::size_t m, std::size_t n, double alpha, const double* A, std::size_t ld, const double* x,
+template <typename Value>
+void addColumns(std::size_t m, std::size_t n, double alpha, const Value* A, std::size_t ld, const double* x,
                 double* y) {
   std::size_t j = 0;
   for (; j + pack <= n; j += pack, A += pack * ld) {
     double f[pack];
     for (std::size_t c = 0; c < pack; ++c) f[c] = alpha * x[j + c];
     for (std::size_t i = 0; i < m; ++i) {
-      const double* a = A + i;
-      y[i] += ((f[0] * a[0] + f[1] * a[ld]) + (f[2] * a[2 * ld] + f[3] * a[3 * ld])) +
-              ((f[4] * a[4 * ld] + f[5] * a[5 * ld]) + (f[6] * a[6 * ld] + f[7] * a[7 * ld]));
+      const auto a = [&](std::size_t c) { return static_cast<double>(A[c * ld + i]); };
+      y[i] += ((f[0] * a(0) + f[1] * a(1)) + (f[2] * a(2) + f[3] * a(3))) +
+              ((f[4] * a(4) + f[5] * a(5)) + (f[6] * a(6) + f[7] * a(7)));
     }
   }
   for (; j < n; ++j, A += ld) {
     const double f = alpha * x[j];
-    for (std::size_t i = 0; i < m; ++i) y[i] += f * A[i];
+    for (std::size_t i = 0; i < m; ++i) y[i] += f * static_cast<double>(A[i]);
   }
 }
 
@@ -311,6 +312,10 @@ int determinantSign(std::size_t n, const double* factors, const int* pivots) {
 
 void addProduct(std::size_t m, std::size_t n, double alpha, const double* A, const double* x, double* y) {
   addColumns(m, n, alpha, A, m, x, y);
+}
+
+void addProduct(std::size_t m, std::size_t n, const float* A, const double* x, double* y) {
+  addColumns(m, n, 1.0, A, m, x, y);
 }
 
 }  // namespace lampblack::numerics

@@ -47,5 +47,7 @@ class DenseBlocks {
 
 // y += alpha A x, A being m x n without gaps between columns.
 void addProduct(std::size_t m, std::size_t n, double alpha, const double* A, const double* x, double* y);
+// y += A x, A in single precision.
+void addProduct(std::size_t m, std::size_t n, const float* A, const double* x, double* y);
 
 }  // namespace lampblack::numerics

@@ -10,6 +10,9 @@ namespace lampblack::flow {
 namespace {
 
 constexpr int restart = 40;
+// Of what elimination would couple beyond neighbours, the share that counts as the cell's own: all would keep sums over
+// cells, but may leave a cell without a pivot.
+constexpr double keptFill = 0.9;
 
 BlockSystem* systemOf(void* context) {
   return static_cast<BlockSystem*>(context);
@@ -88,18 +91,54 @@ void BlockSystem::addInertia(int cell, double inertia) {
   for (std::size_t k = 0; k < fields_; ++k) block(cell)[k * (fields_ + 1)] += inertia;
 }
 
-void BlockSystem::invert() {
+// What the other cell of a face, one of this rank's own, brings to a cell, and is brought by it.
+BlockSystem::Neighbour BlockSystem::neighbour(int cell, int face) const {
+  if (mesh_.high[face] < 0) return {};
+  const bool isLow = mesh_.low[face] == cell;
+  const int other = isLow ? mesh_.high[face] : mesh_.low[face];
+  if (other >= mesh_.owned) return {};
+  const std::size_t at = static_cast<std::size_t>(face) * fields_;
+  return {other, &(isLow ? toLow_ : toHigh_)[at], &(isLow ? toHigh_ : toLow_)[at]};
+}
+
+// Of a cell's block, less what the cells before it answer to a change of the cell, and of the neighbours that those
+// have behind it as if they changed by as much.
+void BlockSystem::factorise() {
   const std::size_t n = fields_;
-  std::vector<double> factors(n * n);
+  std::vector<double> factors(n * n), inverse(n * n), behind(static_cast<std::size_t>(mesh_.owned) * n, 0.0);
   inEachCell(mesh_, [&](int c) {
+    double* own = &behind[static_cast<std::size_t>(c) * n];
     double sum = 0.0;
     for (std::size_t k = 0; k < n; ++k) sum += std::abs(block(c)[k * (n + 1)]);
     scale_[c] = static_cast<double>(n) / sum;
     std::copy_n(block(c), n * n, factors.begin());
+    for (int i = mesh_.faceStart[c]; i < mesh_.faceStart[c + 1]; ++i) {
+      const Neighbour other = neighbour(c, mesh_.faceOfCell[i]);
+      if (other.cell > c)
+        for (std::size_t k = 0; k < n; ++k) own[k] += other.comes[k];
+      if (other.cell < 0 || other.cell > c) continue;
+      const float* answer = &inverse_[static_cast<std::size_t>(other.cell) * n * n];
+      const double* all = &behind[static_cast<std::size_t>(other.cell) * n];
+      for (std::size_t k = 0; k < n; ++k) {
+        const double goes = (1.0 - keptFill) * other.goes[k] + keptFill * all[k];
+        for (std::size_t r = 0; r < n; ++r)
+          factors[k * n + r] -= other.comes[r] * static_cast<double>(answer[k * n + r]) * goes;
+      }
+    }
     if (!dense_.factorise(n, factors.data(), pivots_.data()))
       throw NumericsError("the linear system of an iteration towards the steady state is singular");
-    dense_.invert(n, factors.data(), pivots_.data(), ones_.data(), &inverse_[static_cast<std::size_t>(c) * n * n]);
+    dense_.invert(n, factors.data(), pivots_.data(), ones_.data(), inverse.data());
+    std::ranges::transform(inverse, &inverse_[static_cast<std::size_t>(c) * n * n],
+                           [](double value) { return static_cast<float>(value); });
   });
+}
+
+double BlockSystem::inverseDiagonal(int cell, std::size_t field) {
+  std::vector<double> factors(block(cell), block(cell) + fields_ * fields_), column(fields_, 0.0);
+  if (!dense_.factorise(fields_, factors.data(), pivots_.data())) return 0.0;
+  column[field] = 1.0;
+  dense_.solve(fields_, factors.data(), pivots_.data(), 1, column.data());
+  return column[field];
 }
 
 void BlockSystem::multiply(Vec x, Vec y) {
@@ -129,35 +168,39 @@ void BlockSystem::multiply(Vec x, Vec y) {
     for (std::size_t k = 0; k < n; ++k) to[static_cast<std::size_t>(c) * n + k] *= scale_[c];
 }
 
-// What the cell has by its own equations, its neighbours as they are now.
-void BlockSystem::relax(int cell, std::span<const double> right) {
-  const std::size_t n = fields_, own = static_cast<std::size_t>(cell) * n;
-  for (std::size_t k = 0; k < n; ++k) row_[k] = right[own + k] / scale_[cell];
+void BlockSystem::addNeighbours(int cell, std::span<const double> values, bool before) {
   for (int i = mesh_.faceStart[cell]; i < mesh_.faceStart[cell + 1]; ++i) {
-    const int face = mesh_.faceOfCell[i];
-    if (mesh_.high[face] < 0) continue;
-    const bool isLow = mesh_.low[face] == cell;
-    const int other = isLow ? mesh_.high[face] : mesh_.low[face];
-    const double* coefficient = &(isLow ? toLow_ : toHigh_)[static_cast<std::size_t>(face) * n];
-    const double* beyond = &work_[static_cast<std::size_t>(other) * n];
-    for (std::size_t k = 0; k < n; ++k) row_[k] += coefficient[k] * beyond[k];
+    const Neighbour other = neighbour(cell, mesh_.faceOfCell[i]);
+    if (other.cell < 0 || (other.cell < cell) != before) continue;
+    const double* value = &values[static_cast<std::size_t>(other.cell) * fields_];
+    for (std::size_t k = 0; k < fields_; ++k) row_[k] += other.comes[k] * value[k];
   }
-  std::fill_n(&work_[own], n, 0.0);
-  addProduct(n, n, 1.0, &inverse_[own * n], row_.data(), &work_[own]);
 }
 
 void BlockSystem::precondition(Vec x, Vec y) {
   const PetscValues values(x);
-  std::ranges::fill(work_, 0.0);
-  for (int c = 0; c < mesh_.owned; ++c) relax(c, values.get());
-  for (int c = mesh_.owned - 1; c >= 0; --c) relax(c, values.get());
   const PetscMutableValues found(y);
-  std::copy_n(work_.begin(), found.get().size(), found.get().begin());
+  const std::span<const double> right = values.get();
+  const std::span<double> to = found.get();
+  const std::size_t n = fields_;
+  for (int c = 0; c < mesh_.owned; ++c) {
+    const std::size_t own = static_cast<std::size_t>(c) * n;
+    for (std::size_t k = 0; k < n; ++k) row_[k] = right[own + k] / scale_[c];
+    addNeighbours(c, to, true);
+    std::fill_n(&to[own], n, 0.0);
+    addProduct(n, n, &inverse_[own * n], row_.data(), &to[own]);
+  }
+  for (int c = mesh_.owned - 1; c >= 0; --c) {
+    const std::size_t own = static_cast<std::size_t>(c) * n;
+    std::ranges::fill(row_, 0.0);
+    addNeighbours(c, to, false);
+    addProduct(n, n, &inverse_[own * n], row_.data(), &to[own]);
+  }
 }
 
 BlockSystem::Result BlockSystem::solve(std::span<const double> right, std::span<double> x, double reduction,
                                        int mostIterations) {
-  invert();
+  factorise();
   {
     const PetscMutableValues values(rightSide_.get());
     for (int c = 0; c < mesh_.owned; ++c)

@@ -1,8 +1,9 @@
 // A linear system of several fields in every cell: a dense block of each cell for what couples its fields, and between
 // two cells one number a field, as convection and diffusion couple them,
 //   block(P) x(P) - sum over interior faces of coefficient_k(P, face) x_k(N) = right side(P).
-// Restarted GMRES (Saad and Schultz 1986) of PETSc, preconditioned by one symmetric Gauss-Seidel sweep over the blocks
-// of each rank's own cells (Saad 2003, section 4.1).
+// Restarted GMRES (Saad and Schultz 1986) of PETSc, preconditioned by incomplete factors of each rank's own cells in
+// the order of their numbers: without fill, only the cells' blocks differ from those of the matrix (Saad 2003, sections
+// 10.3 and 10.3.5). Their inverses are in single precision, which is half of what a sweep has to read.
 #pragma once
 
 #include <span>
@@ -27,10 +28,8 @@ class BlockSystem {
   void clear();
   // Of an owned cell, column-major, to be added to.
   [[nodiscard]] double* block(int cell) { return &blocks_[static_cast<std::size_t>(cell) * fields_ * fields_]; }
-  // The inverse of that block, of the last solve.
-  [[nodiscard]] const double* inverse(int cell) const {
-    return &inverse_[static_cast<std::size_t>(cell) * fields_ * fields_];
-  }
+  // Of the inverse of that block; zero where there is none.
+  [[nodiscard]] double inverseDiagonal(int cell, std::size_t field);
   // Adds to a field the diffusion through any face by a conductance, beyond a boundary to a fixed value, and upwind
   // convection by a flow from low to high or outwards of what differs from the cell's own value; gas that comes through
   // a boundary has a fixed value.
@@ -49,15 +48,22 @@ class BlockSystem {
   Result solve(std::span<const double> right, std::span<double> x, double reduction, int mostIterations);
 
  private:
-  void invert();
+  struct Neighbour {
+    int cell = -1;
+    const double *comes = nullptr, *goes = nullptr;  // coefficients: of it in the cell's equations, and the other way
+  };
+  [[nodiscard]] Neighbour neighbour(int cell, int face) const;
+  // To `row_`, what the neighbours before the cell, or behind it, bring.
+  void addNeighbours(int cell, std::span<const double> values, bool before);
+  void factorise();
   void multiply(Vec x, Vec y);
   void precondition(Vec x, Vec y);
-  void relax(int cell, std::span<const double> right);
 
   const Mesh& mesh_;
   HaloExchange& halo_;
   std::size_t fields_;
-  std::vector<double> blocks_, inverse_;
+  std::vector<double> blocks_;
+  std::vector<float> inverse_;  // of what elimination leaves of the blocks
   std::vector<double> toLow_, toHigh_;  // coefficients, fields an interior face
   std::vector<double> scale_;           // of the equations of a cell
   std::vector<double> work_, row_, ones_;

@@ -121,12 +121,11 @@ void GasUpdate::assemble(const State& state, const FlowResidual& residual, std::
 // linear system knows of another place without change, behind that of no gas at all. Whether it grows so tells the sign
 // of its equation's diagonal once all else in the cell has answered to it, one over that of the inverse: what falls
 // only because others do is no such thing, and traces of it would hold back cells for nothing.
-bool GasUpdate::isMisled(const State& state, std::size_t c, double share) const {
+bool GasUpdate::isMisled(const State& state, std::size_t c, double share) {
   const double *Y = &state.Y[c * n_], *change = &change_[c * (n_ + 1)], *left = &right_[c * (n_ + 1)];
-  const double* inverse = system_.inverse(static_cast<int>(c));
   for (std::size_t k = 0; k < n_; ++k)
     if (left[k] > 0.0 && change[k] < 0.0 && Y[k] + share * change[k] < 2.0 * leastOfSpecies &&
-        !(inverse[k * (n_ + 2)] > 0.0))
+        !(system_.inverseDiagonal(static_cast<int>(c), k) > 0.0))
       return true;
   return false;
 }

@@ -63,7 +63,7 @@ class GasUpdate {
   // Changes also the load so that its condition holds for the change of all cells; the change of the load.
   double addLoad(const State& state, const LoadAsUnknown& load);
   // Whether the linear system takes away, to less than nothing, what the cell's equations say there will be more of.
-  [[nodiscard]] bool isMisled(const State& state, std::size_t cell, double share) const;
+  [[nodiscard]] bool isMisled(const State& state, std::size_t cell, double share);
   // The share of the change that was taken: none where it misleads.
   double take(State& state, int cell, double& largestRise);
 
