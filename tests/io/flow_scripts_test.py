@@ -133,7 +133,7 @@ def check_santoro(folder):
         fields["soot_size_distribution_mean"] = np.stack([np.where(wing, 0, 1e17), np.where(wing, 1e17, 0)], axis=-1)
         file["soot_sizes/bin_edges"] = [1e-9, 1e-8, 1e-7]
     code, told, err = called("compare_santoro", hot, "--out", folder / "sizes")
-    assert code == 0 and (folder / "sizes/sizes.png").is_file(), err
+    assert code == 0 and all((folder / "sizes" / name).is_file() for name in ("sizes.png", "places.png")), err
     lines = [line.split() for line in told.splitlines() if line.startswith(("  axis", "  wing"))]
     assert len(lines) == 10 and "largest f_v 3 ppm" in told, told
     assert lines[0] == "axis 19.0 0.50 1 +- 0.1 2e+10 +- 1e+09 10 +- 1".split(), lines[0]
