@@ -60,7 +60,10 @@ void Gradient::compute(std::span<const double> values, std::span<const double> b
         const double* other = valuesBeyond(m, cell, face, values, boundary, components);
         for (int k = first; k < first + width; ++k) {
           const double difference = other[k] - own[k];
-          for (int axis = 0; axis < d; ++axis) out[k * d + axis] += (*weight)[axis] * difference;
+          double* slope = out + k * d;
+          slope[0] += (*weight)[0] * difference;
+          slope[1] += (*weight)[1] * difference;
+          if (d == 3) slope[2] += (*weight)[2] * difference;
         }
       }
     }

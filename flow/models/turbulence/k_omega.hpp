@@ -33,7 +33,7 @@ struct KOmega {
     rates.diffusivity = {cell.viscosity + sigmaK * unlimited, cell.viscosity + sigmaOmega * unlimited};
     double beta = beta0;
     if constexpr (is2006) {
-      const double X = cell.stretching / std::pow(betaStar * s.omega, 3);
+      const double decay = betaStar * s.omega, X = cell.stretching / (decay * decay * decay);
       beta *= (1.0 + 85.0 * X) / (1.0 + 100.0 * X);
     }
     const double produced = rates.eddyViscosity * S * S;

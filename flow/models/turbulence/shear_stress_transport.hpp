@@ -35,8 +35,8 @@ struct ShearStressTransport {
     const double viscous = 500.0 * cell.viscosity / (d * d * s.omega);
     const double cross = std::max(2.0 * sigmaOmega2 * s.cross, leastCross);
     const double arg1 = std::min(std::max(length, viscous), 4.0 * sigmaOmega2 * s.k / (cross * d * d));
-    const double F1 = std::tanh(std::pow(std::min(arg1, 10.0), 4));
-    const double F2 = std::tanh(std::pow(std::min(std::max(2.0 * length, viscous), 10.0), 2));
+    const double F1 = layerShare(arg1);
+    const double arg2 = std::min(std::max(2.0 * length, viscous), 10.0), F2 = std::tanh(arg2 * arg2);
     const auto blend = [F1](double inner, double outer) { return F1 * inner + (1.0 - F1) * outer; };
     TurbulentRates rates;
     const double inverseTime = std::max(s.omega, (is2003 ? S : cell.vorticity) * F2 / a1);  // k over the eddy viscosity

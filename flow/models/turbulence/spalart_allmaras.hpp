@@ -24,8 +24,9 @@ struct SpalartAllmaras {
   }
 
   [[nodiscard]] static double wallFunction(double r) {
-    const double g = r + cw2 * (std::pow(r, 6) - r), six = std::pow(cw3, 6);
-    return g * std::pow((1.0 + six) / (std::pow(g, 6) + six), 1.0 / 6.0);
+    const auto sixth = [](double x) { return (x * x * x) * (x * x * x); };
+    const double g = r + cw2 * (sixth(r) - r);
+    return g * std::cbrt(std::sqrt((1.0 + sixth(cw3)) / (sixth(g) + sixth(cw3))));
   }
 
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {

@@ -6,7 +6,9 @@
 // the equations: docs/theory/turbulence.md.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -53,6 +55,12 @@ struct TurbulentRates {
       source[variable] += rate;
   }
 };
+
+// tanh(x^4), by which models pass from the layers at walls to what is beyond them.
+[[nodiscard]] inline double layerShare(double x) {
+  const double most = std::min(x, 10.0), square = most * most;
+  return std::tanh(square * square);
+}
 
 // Of gas that comes in, or that a flow starts from.
 struct FreeStream {

@@ -28,7 +28,7 @@ struct WangModel {
     rates.eddyViscosity = n * cube / (cube + cw * cw * cw);
     const double arg =
         std::max(std::pow(cMu, 0.25) * std::sqrt(n / S) / (betaStar * d), 500.0 * std::sqrt(cMu) * nu / (d * d * S));
-    const double F1 = std::tanh(std::pow(std::min(arg, 10.0), 4));
+    const double F1 = layerShare(arg);
     const auto blend = [F1](double omega, double epsilon) { return F1 * omega + (1.0 - F1) * epsilon; };
     const double alpha = blend(1.2, 1.0), beta = blend(0.084, 0.144), gamma = blend(1.7, 0.2386);
     rates.diffusivity[0] = nu + alpha * n;

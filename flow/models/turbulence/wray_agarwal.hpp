@@ -31,7 +31,7 @@ struct WrayAgarwal {
     // (nu + R)/2 eta^2/(C_mu k omega), with k and omega of the eddy viscosity and the strain.
     const double eta = std::max(1.0, cell.vorticity / S);
     const double arg = (nu + R) / 2.0 * eta * eta / std::max(rates.eddyViscosity, 1e-30);
-    const double f1 = std::tanh(std::pow(std::min(arg, 10.0), 4));
+    const double f1 = layerShare(arg);
     rates.diffusivity[0] = nu + (f1 * (sigmaOmega - sigmaEpsilon) + sigmaEpsilon) * R;
     rates.source[0] = (f1 * (c1Omega - c1Epsilon) + c1Epsilon) * R * S;
     const Vector3 &slope = cell.gradients[0], &ofStrain = cell.strainGradient;
