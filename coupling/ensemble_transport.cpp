@@ -71,14 +71,13 @@ bool EnsembleTransport::diffuses(int face) const {
   return options_.diffusion && (context_.mesh.high[face] >= 0 || context_.takesParticles(face));
 }
 
-// As CarriedTransport::diffusiveFlux has it; walls have their own way (flow/properties/wall_transfer.hpp).
+// Walls have their own way (flow/properties/wall_transfer.hpp).
 double EnsembleTransport::stirredThrough(const Gas& gas, int face) const {
   const Mesh& m = context_.mesh;
-  const int low = m.low[face], high = m.high[face];
-  if (gas.state.eddyViscosity.empty() || high < 0) return 0.0;
-  const auto perMass = [&](int cell) { return gas.state.eddyViscosity[cell] / gas.state.density[cell]; };
-  const double mean = m.lowWeight[face] * perMass(low) + (1.0 - m.lowWeight[face]) * perMass(high);
-  return gas.faceDensity[face] * m.area[face] / m.distance[face] * mean / context_.eddies.schmidt;
+  if (gas.state.eddyViscosity.empty() || m.high[face] < 0) return 0.0;
+  const auto of = [&](int cell) { return eddyMixing(context_, gas.state, static_cast<std::size_t>(cell)); };
+  const double D = m.lowWeight[face] * of(m.low[face]) + (1.0 - m.lowWeight[face]) * of(m.high[face]);
+  return gas.faceDensity[face] * m.area[face] / m.distance[face] * D;
 }
 
 // Of a local cell: D d^2 at the nodes.

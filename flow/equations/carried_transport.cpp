@@ -71,8 +71,7 @@ const std::vector<double>& CarriedTransport::diffusivities(const State& state) c
   const std::size_t n = state.scalars.size();
   for (std::size_t c = 0; c < state.eddyViscosity.size(); ++c)
     for (std::size_t s = 0; s < n; ++s)
-      if (state.scalars[s].isStirred)
-        diffusivity_[c * n + s] += state.eddyViscosity[c] / (context_.eddies.schmidt * state.density[c]);
+      if (state.scalars[s].isStirred) diffusivity_[c * n + s] += eddyMixing(context_, state, c);
   return diffusivity_;
 }
 

@@ -70,4 +70,9 @@ struct GasProperties {
       effectiveBoundaryConductivity_;
 };
 
+// m^2/s, of a local cell: by which eddies mix what the gas carries. The state has eddies.
+[[nodiscard]] inline double eddyMixing(const FlowContext& context, const State& state, std::size_t cell) {
+  return state.eddyViscosity[cell] / (context.eddies.schmidt * state.density[cell]);
+}
+
 }  // namespace lampblack::flow

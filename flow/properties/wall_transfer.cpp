@@ -12,15 +12,19 @@ double lawExchange(const FlowContext& context, const State& state, int face) {
   return walllaw::exchange(state, static_cast<std::size_t>(m.low[face]), m.distance[face]);
 }
 
+double prandtlAtWall(const Mesh& m, const GasProperties& properties, int face) {
+  const int b = face - m.interiorFaces;
+  return properties.boundaryViscosity[b] * properties.heatCapacity[m.low[face]] / properties.boundaryConductivity[b];
+}
+
 }  // namespace
 
 WallEddies eddiesToWall(const FlowContext& context, const State& state, const GasProperties& properties, int face) {
   const Mesh& m = context.mesh;
   const double exchange = lawExchange(context, state, face);
   if (!(exchange > 0.0)) return {};
-  const int b = face - m.interiorFaces;
-  const double viscosity = properties.boundaryViscosity[b], yStar = exchange / viscosity;
-  const double prandtl = viscosity * properties.heatCapacity[m.low[face]] / properties.boundaryConductivity[b];
+  const double yStar = exchange / properties.boundaryViscosity[face - m.interiorFaces];
+  const double prandtl = prandtlAtWall(m, properties, face);
   const auto [turbulentPrandtl, schmidt] = context.eddies;
   const double eddies = walllaw::eddyPart(yStar, prandtl, turbulentPrandtl);
   if (!(eddies > 0.0)) return {};
@@ -36,13 +40,15 @@ double conductanceToWall(const FlowContext& context, const State& state, const G
   if (!(exchange > 0.0)) return viscous;
   const auto cell = static_cast<std::size_t>(m.low[face]);
   const double viscosity = properties.boundaryViscosity[face - m.interiorFaces];
-  const double all =
-      walllaw::scalar(exchange / viscosity, viscosity / (state.density[cell] * D), context.eddies.schmidt) /
-      (metric * exchange);
-  // Eddies are less than all: what conducts heat well enough to have them diffuses more than any particle.
-  const double layer = all - eddiesToWall(context, state, properties, face).resistance;
-  constexpr double least = 1e-3;
-  return 1.0 / std::max(layer, least * all);
+  const auto [turbulentPrandtl, turbulentSchmidt] = context.eddies;
+  const double schmidt = viscosity / (state.density[cell] * D);
+  const double eddies = eddiesToWall(context, state, properties, face).resistance;
+  // What diffuses better than heat has no viscous layer but the still one, in which it differs from what only eddies
+  // bring.
+  if (eddies > 0.0 && schmidt / turbulentSchmidt < prandtlAtWall(m, properties, face) / turbulentPrandtl)
+    return metric * exchange / (schmidt * walllaw::still);
+  const double all = walllaw::scalar(exchange / viscosity, schmidt, turbulentSchmidt) / (metric * exchange);
+  return 1.0 / (all - eddies);
 }
 
 }  // namespace lampblack::flow

@@ -10,6 +10,7 @@
 #include "flow/discretisation/velocity_gradient.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/models/turbulence/turbulence_operator.hpp"
+#include "flow/properties/wall_transfer.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
@@ -204,6 +205,37 @@ TEST(WallLaw, EddiesResistBeyondTheStillLayer) {
   EXPECT_EQ(walllaw::eddyPart(3.3, 0.71, 0.9), 0.0);
   EXPECT_NEAR(walllaw::eddyPart(10.0, 0.71, 0.9), 0.71 * 6.6, 1e-12);
   EXPECT_NEAR(walllaw::eddyPart(100.0, 0.71, 0.9), 0.9 * (16.798909 - 1.924682) - 0.71 * 3.4, 1e-5);
+}
+
+// Of the way to a wall what is not the eddies' is the still layer's: of dust that diffuses as heat does up to y* 3.4 by
+// molecules alone, of what diffuses better by its own Schmidt number, of dust that hardly diffuses all that the law
+// adds.
+TEST(WallLaw, WhatDiffusesWellHasTheStillLayerAlone) {
+  Corner corner(0.5);
+  const Mesh& m = corner.box.mesh;
+  FlowResidual residual(corner.box.context, corner.state, VelocityScheme::Limited, {});
+  residual.evaluate(corner.state);
+  const GasProperties& of = residual.properties();
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    if (corner.box.context.boundaryOf(face).kind != BoundaryKind::Wall) continue;
+    const auto b = at(face - m.interiorFaces), c = at(m.low[face]);
+    const double rho = corner.state.density[c], viscosity = of.boundaryViscosity[b];
+    const double prandtl = viscosity * of.heatCapacity[c] / of.boundaryConductivity[b];
+    const double perNumber = rho * std::pow(0.09, 0.25) * std::sqrt(0.5) * m.area[face];
+    const double yStar = perNumber / m.area[face] * m.distance[face] / viscosity;
+    const auto resists = [&](double ratio) {  // over Sc_t, of Sc/Sc_t over Pr/Pr_t
+      const double schmidt = ratio * prandtl / 0.85 * 0.7;
+      return perNumber / 0.7 /
+             conductanceToWall(corner.box.context, corner.state, of, face, rho, viscosity / (rho * schmidt));
+    };
+    const double heat = prandtl / 0.85;
+    EXPECT_NEAR(resists(0.01) / (0.034 * heat), 1.0, 1e-9);
+    EXPECT_NEAR(resists(1.0 - 1e-9) / (3.4 * heat), 1.0, 1e-6);
+    EXPECT_NEAR(resists(1.0 + 1e-9) / (3.4 * heat), 1.0, 1e-6);
+    EXPECT_NEAR(
+        resists(100.0) / (walllaw::scalar(yStar, 100.0 * heat, 1.0) - walllaw::scalar(yStar, heat, 1.0) + 3.4 * heat),
+        1.0, 1e-9);
+  }
 }
 
 // Particles that drift and do not diffuse, in a layer of constant fluxes with the eddies of van Driest's mixing length,
