@@ -68,6 +68,38 @@ TEST(CombustionRuns, WithoutMixingAreLaminarToTheLastBit) {
   }
 }
 
+// Particles react at the gas's share, or do not; atoms are kept in either.
+TEST(CombustionRuns, ParticlesHaveTheShareThatTheDeckSays) {
+  const test::SharedScratchFolder scratch;
+  const auto sooting = [&](const std::string& factor) {
+    const std::string gas = "\"C2H4: 0.2, C2H2: 0.05, A2: 1e-3, O2: 0.1, H: 1e-3, OH: 1e-3, N2: 0.647\"";
+    const Deck deck =
+        mixingDeck("model: pasr, soot_factor: " + factor,
+                   {"mechanism=" + test::sourcePath("cases/mechanisms/ethylene_bisetti2012_47.yaml"), "mesh.x=[{to: 8 mm, cells: 4}]",
+                    "mesh.y=[{to: 8 mm, cells: 3}]", "boundaries.fuel.composition=" + gas,
+                    "particles={description: two_equation_dimer, pah: [A2]}", "initial.composition=" + gas,
+                    "initial.temperature=1600 K", "time={end: 0.2 us, first_step: 0.1 us, maximum_step: 0.1 us}",
+                    "output.interval=0.1 us"});
+    return resultsOf({deck, scratch.path() / factor});
+  };
+  const test::Ran one = sooting("one"), kappa = sooting("kappa");
+  // What the second step makes goes by the share at its start.
+  const auto after = [](const test::Ran& ran, int step, const std::string& field) -> const std::vector<double>& {
+    return ran.fields.at(fmt::format("{:06}/{}", step, field));
+  };
+  const std::vector<double>& share = after(kappa, 1, "reacting_share");
+  const auto made = [&](const test::Ran& ran, std::size_t c) {
+    return after(ran, 2, "soot_volume_fraction")[c] - after(ran, 1, "soot_volume_fraction")[c];
+  };
+  for (std::size_t c = 0; c < share.size(); ++c) {
+    EXPECT_LT(share[c], 0.9);
+    EXPECT_GT(made(one, c), 0.0);
+    EXPECT_NEAR(made(kappa, c), share[c] * made(one, c), 0.02 * made(one, c));
+  }
+  for (const test::Ran* ran : {&one, &kappa})
+    for (const std::string atom : {"C", "H"}) EXPECT_LT(std::abs(ran->history.at(atom + "_budget_error").back()), 1e-12);
+}
+
 TEST(CombustionCase, RefusesWhatCannotBe) {
   struct Wrong {
     std::string combustion;
