@@ -75,11 +75,11 @@ TEST(CombustionRuns, ParticlesHaveTheShareThatTheDeckSays) {
     const std::string gas = "\"C2H4: 0.2, C2H2: 0.05, A2: 1e-3, O2: 0.1, H: 1e-3, OH: 1e-3, N2: 0.647\"";
     const Deck deck =
         mixingDeck("model: pasr, soot_factor: " + factor,
-                   {"mechanism=" + test::sourcePath("cases/mechanisms/ethylene_bisetti2012_47.yaml"), "mesh.x=[{to: 8 mm, cells: 4}]",
-                    "mesh.y=[{to: 8 mm, cells: 3}]", "boundaries.fuel.composition=" + gas,
-                    "particles={description: two_equation_dimer, pah: [A2]}", "initial.composition=" + gas,
-                    "initial.temperature=1600 K", "time={end: 0.2 us, first_step: 0.1 us, maximum_step: 0.1 us}",
-                    "output.interval=0.1 us"});
+                   {"mechanism=" + test::sourcePath("cases/mechanisms/ethylene_bisetti2012_47.yaml"),
+                    "mesh.x=[{to: 8 mm, cells: 4}]", "mesh.y=[{to: 8 mm, cells: 3}]",
+                    "boundaries.fuel.composition=" + gas, "particles={description: two_equation_dimer, pah: [A2]}",
+                    "initial.composition=" + gas, "initial.temperature=1600 K",
+                    "time={end: 0.2 us, first_step: 0.1 us, maximum_step: 0.1 us}", "output.interval=0.1 us"});
     return resultsOf({deck, scratch.path() / factor});
   };
   const test::Ran one = sooting("one"), kappa = sooting("kappa");
@@ -97,7 +97,8 @@ TEST(CombustionRuns, ParticlesHaveTheShareThatTheDeckSays) {
     EXPECT_NEAR(made(kappa, c), share[c] * made(one, c), 0.02 * made(one, c));
   }
   for (const test::Ran* ran : {&one, &kappa})
-    for (const std::string atom : {"C", "H"}) EXPECT_LT(std::abs(ran->history.at(atom + "_budget_error").back()), 1e-12);
+    for (const std::string atom : {"C", "H"})
+      EXPECT_LT(std::abs(ran->history.at(atom + "_budget_error").back()), 1e-12);
 }
 
 TEST(CombustionCase, RefusesWhatCannotBe) {
