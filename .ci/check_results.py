@@ -49,6 +49,17 @@ def check_molecules(folder):
         print(f"{folder}: {len(rings)} rows, {len(spectrum['time'])} formulas, {len(formulas['carbon'])} molecules drawn")
 
 
+def check_aggregates(folder):
+    with h5py.File(folder / "results.h5", "r") as file:
+        history, spheres = file["history"], file["aggregates/spheres"]
+        assert np.all(np.diff(history["time"][()]) >= 0), "the times fall"
+        for name in ("spheres", "volume", "surface", "radius", "gyration", "shadow"):
+            assert np.all(history[name][()] > 0), f"{name} is not positive"
+        assert np.all(spheres["radius"][()] > 0), "spheres without a radius"
+        assert np.all(spheres["volume"][()] <= 4.18880 * spheres["radius"][()] ** 3), "cut spheres are larger than spheres"
+        print(f"{folder}: {len(history['time'])} rows, {len(spheres['radius'])} spheres drawn")
+
+
 def check_flame(folder):
     with h5py.File(folder / "results.h5", "r") as file:
         flame = file["flame"]
@@ -108,7 +119,7 @@ def main(folder):
         check_study(folder)
         return
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    kinds = {"reactor": check_reactor, "prescribed_gas": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "pah": check_molecules, "flame1d": check_flame}
+    kinds = {"reactor": check_reactor, "prescribed_gas": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "pah": check_molecules, "aggregates": check_aggregates, "flame1d": check_flame}
     kinds.get(record["deck"]["problem"], check_flow)(folder)
 
 

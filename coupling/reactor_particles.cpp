@@ -26,8 +26,7 @@ const ParticleGas& ReactorGas::at(double T, double p, std::span<const double> co
   }
   for (std::size_t k = 0; k < weights_.size(); ++k) X_[k] = concentrations[k] / moles;
   for (std::size_t i = 0; i < species_.size(); ++i) seen_[i] = concentrations[species_[i]];
-  const double viscosity =
-      transport_ ? transport_->mixture(T, p, X_, D_).viscosity : 1.458e-6 * T * std::sqrt(T) / (T + 110.4);
+  const double viscosity = transport_ ? transport_->mixture(T, p, X_, D_).viscosity : viscosityOfAir(T);
   gas_ = {{T, p, mass, viscosity, mass / moles}, seen_};
   return gas_;
 }

@@ -2,6 +2,7 @@
 // amounts, and the gas at a state of a reactor as the particles see it.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,6 +19,9 @@ namespace lampblack::coupling {
 // Of the gas as particles see it: from transport data; or that of air by Sutherland's law, 1.458e-6 T^1.5/(T + 110.4)
 // Pa s (as in Kazakov and Frenklach 1998), for mechanisms without.
 enum class GasViscosity { transport, air };
+[[nodiscard]] inline double viscosityOfAir(double T) {
+  return 1.458e-6 * T * std::sqrt(T) / (T + 110.4);
+}
 
 // The gas of a reactor at a state of it: all concentrations, and those that particles see.
 class ReactorGas {

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "app/aggregates/aggregates_case.hpp"
+#include "app/aggregates/aggregates_run.hpp"
 #include "app/flame1d/flame_case.hpp"
 #include "app/flame1d/flame_run.hpp"
 #include "app/flow/flow_case.hpp"
@@ -38,6 +40,10 @@ const std::vector<Problem>& problems() {
        "Single molecules of polycyclic aromatic hydrocarbons that grow site by site, by kinetic Monte Carlo, in a gas "
        "that is constant, of a table, or along a one-dimensional flame.",
        pahSchema, preparePah, true},
+      {"aggregates",
+       "Aggregates of overlapping spheres with places in space, joined on straight lines, that grow and sinter: their "
+       "shape, and pictures of them.",
+       aggregatesSchema, prepareAggregates},
   };
   return table;
 }

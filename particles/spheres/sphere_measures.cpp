@@ -78,6 +78,19 @@ double uncountedOverlap(const SphereAggregate& aggregate) {
   return volume;
 }
 
+double shadowAlongAxes(const SphereAggregate& aggregate) {
+  std::vector<RigidSphere> discs(aggregate.count());
+  double sum = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      const AggregateSphere& s = aggregate.spheres()[i];
+      discs[i] = {{s.centre[axis], s.centre[(axis + 1) % 3], 0}, s.radius};
+    }
+    sum += coveredArea(discs);
+  }
+  return sum / 3;
+}
+
 double projectedArea(const SphereAggregate& aggregate, std::size_t directions, RandomStream& random) {
   std::vector<RigidSphere> discs(aggregate.count());
   double sum = 0;

@@ -28,6 +28,8 @@ namespace lampblack::particles {
 [[nodiscard]] double coveredArea(std::span<const RigidSphere> discs);
 // Area of the shadow: the mean over so many directions.
 [[nodiscard]] double projectedArea(const SphereAggregate& aggregate, std::size_t directions, RandomStream& random);
+// The same along x, y and z as the aggregate stands.
+[[nodiscard]] double shadowAlongAxes(const SphereAggregate& aggregate);
 // Of the sphere with the same shadow, which is that of the same mobility where the gas has no collisions.
 [[nodiscard]] double shadowDiameter(double area);
 

@@ -103,13 +103,14 @@ void SphereSintering::advance(SphereAggregate& aggregate, double temperature, do
   if (!law_.active() || !(time > 0)) return;
   aggregate_ = &aggregate;
   temperature_ = temperature;
-  double step = time;
+  double step = 0;
   for (bool isNew = true; time > 0 && aggregate.count() > 1;) {
     const std::size_t n = aggregate.count();
     if (isNew) {
       for (std::vector<double>* v : {&radii_, &volumes_, &slopes_, &necks_}) v->resize(n);
       state_.resize(n - 1);
       smallest_.resize(n - 1);
+      trial_.resize(n - 1);
       for (std::size_t i = 0; i < n; ++i) radii_[i] = aggregate.spheres()[i].radius;
       for (std::size_t k = 1; k < n; ++k) {
         const double smaller = std::min(radii_[k], radii_[aggregate.spheres()[k].parent]);
@@ -117,6 +118,11 @@ void SphereSintering::advance(SphereAggregate& aggregate, double temperature, do
         state_[k - 1] = neck * neck * neck;
         smallest_[k - 1] = std::pow(wellKnown * smaller, 6);
       }
+      // The first step by how fast necks widen, as if the error went with its third power.
+      rates(state_, trial_);
+      step = time;
+      for (std::size_t k = 0; k + 1 < n; ++k)
+        step = std::min(step, std::cbrt(tolerance_) * std::max(state_[k], smallest_[k]) / trial_[k]);
       isNew = false;
     }
     const double h = std::min(step, time);

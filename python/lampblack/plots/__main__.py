@@ -2,7 +2,7 @@
 cells also a film), history; of a reactor its history, ignition and sensitivities, and where it has tables of every particle
 micrographs, distributions and averages by size; of particles along a given gas their history, rates and sizes; of a population
 balance moments, errors and
-size distributions; of molecules their growth, mass spectrum and rings; of a one-dimensional flame its profiles, soot and sensitivities; of a study its
+size distributions; of molecules their growth, mass spectrum and rings; of aggregates of spheres their shape and micrographs; of a one-dimensional flame its profiles, soot and sensitivities; of a study its
 runs compared, and errors against numbers of particles; of several one-dimensional flames one picture that compares them; of an analysis measurements and
 runs, indices, pairs of parameters, the objective, bands, fronts.
 
@@ -46,6 +46,7 @@ def main():
         from ..reference import ProfileError, find_references, read_reference
         from ..results import Results, ResultsError
         from .sizes import plot_sizes
+        from .spheres_in_space import plot_spheres
         from ..study import is_study
         from .study import plot_study
         from .style import Pictures
@@ -89,6 +90,8 @@ def main():
         plot_population(results, pictures)
     elif results.is_pah:
         plot_molecules(results, pictures)
+    elif results.is_aggregates:
+        plot_spheres(results, pictures)
     elif results.is_flame:
         plot_flame(results, pictures)
         plot_branch(results, pictures)

@@ -91,6 +91,11 @@ def _draw(axes, centres, diameters, width, label):
     axes.set_yticks([])
     axes.spines[:].set_visible(False)
     axes.set_xlabel(label, fontsize=9)
+    scale_bar(axes, width)
+
+
+def scale_bar(axes, width):
+    """In the lower left corner of a square picture whose axes begin at zero, so many nm wide."""
     bar = max(length for length in (m * 10.0**e for e in range(-2, 5) for m in (1, 2, 5)) if length <= 0.3 * width)
     axes.plot([0.05 * width, 0.05 * width + bar], [0.05 * width] * 2, color="black", lw=3, solid_capstyle="butt")
     axes.text(0.05 * width + bar / 2, 0.07 * width, f"{bar:g} nm", ha="center", va="bottom", fontsize=9)
