@@ -71,23 +71,25 @@ void addBuild(DeckSchema& schema) {
                .byDefault("1")
                .above(0)
                .onlyWith("build.by", inGas))
-      .add(choiceKey("build.collision_size", {"shadow", "fractal"},
-                     "Diameter of collision. shadow: of the sphere with the mean projected area; fractal: mean diameter "
-                     "of spheres times n^(1/D), D the key fractal_dimension.")
-               .byDefault("shadow")
-               .onlyWith("build.by", inGas))
+      .add(
+          choiceKey("build.collision_size", {"shadow", "fractal"},
+                    "Diameter of collision. shadow: of the sphere with the mean projected area; fractal: mean diameter "
+                    "of spheres times n^(1/D), D the key fractal_dimension.")
+              .byDefault("shadow")
+              .onlyWith("build.by", inGas))
       .add(numberKey("build.fractal_dimension", "D of the diameter of collision.")
                .byDefault("1.8")
                .atLeast(1)
                .atMost(3)
                .onlyWith("build.collision_size", {"fractal"})
                .onlyWith("build.by", inGas))
-      .add(numberKey("build.split_tolerance",
-                     "Part of the particles that collide, or of the smallest radius that grows, in a step of splitting.")
-               .byDefault("0.05")
-               .above(0)
-               .atMost(1)
-               .onlyWith("build.by", inGas));
+      .add(
+          numberKey("build.split_tolerance",
+                    "Part of the particles that collide, or of the smallest radius that grows, in a step of splitting.")
+              .byDefault("0.05")
+              .above(0)
+              .atMost(1)
+              .onlyWith("build.by", inGas));
 }
 
 void addGas(DeckSchema& schema) {
@@ -137,7 +139,10 @@ AggregatesGas readGas(const Deck& deck) {
   if (isGiven == deck.has("gas.temperature"))
     throw deck.error("gas", "expected either 'temperature', of a gas that stays as it is, or 'file', a table");
   if (!isGiven)
-    return {{0}, {deck.quantity("gas.temperature")}, {deck.quantity("gas.pressure")}, {deck.quantity("gas.births")},
+    return {{0},
+            {deck.quantity("gas.temperature")},
+            {deck.quantity("gas.pressure")},
+            {deck.quantity("gas.births")},
             {deck.quantity("gas.growth")}};
   for (const char* key : {"gas.pressure", "gas.growth", "gas.births"})
     if (deck.isGiven(key)) throw deck.error(key, "the table 'gas.file' says this; leave it out");
@@ -252,9 +257,11 @@ AggregatesCase readAggregatesCase(const Deck& deck) {
     made.build = AggregatesCase::Build::collisions;
     readPopulation(deck, made);
   }
-  if (hasGas && !deck.has("time")) throw deck.error("gas", "what takes place in it takes time; give the section 'time'");
+  if (hasGas && !deck.has("time"))
+    throw deck.error("gas", "what takes place in it takes time; give the section 'time'");
   if (hasGas) made.gas = readGas(deck);
-  if (!hasGas && deck.has("sintering")) throw deck.error("sintering", "it takes place in a gas; give the section 'gas'");
+  if (!hasGas && deck.has("sintering"))
+    throw deck.error("sintering", "it takes place in a gas; give the section 'gas'");
   if (!sinters) options.sintering = {};
   const bool hasBirths = std::ranges::any_of(made.gas.births, [](double rate) { return rate > 0; });
   if (hasBirths && by != inGas[0]) throw deck.error("gas", "particles are born only where build.by is 'collisions'");

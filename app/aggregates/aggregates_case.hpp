@@ -33,7 +33,9 @@ struct AggregatesCase {
 
   // Numbers of spheres with a row while aggregates are built, before the times.
   [[nodiscard]] std::vector<std::size_t> sizes() const;
-  [[nodiscard]] std::size_t rows() const { return times.size() + (build == Build::collisions ? 0 : sizes().size() - 1); }
+  [[nodiscard]] std::size_t rows() const {
+    return times.size() + (build == Build::collisions ? 0 : sizes().size() - 1);
+  }
   [[nodiscard]] double timeOf(std::size_t row) const {
     return row + times.size() < rows() ? 0 : times[row + times.size() - rows()];
   }

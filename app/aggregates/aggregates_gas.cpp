@@ -36,9 +36,10 @@ void readColumns(const TextTable& table, AggregatesGas& gas) {
     const auto [name, unit] = nameAndUnit(table.columns[column]);
     const auto* one = std::ranges::find(known, name, [](const Known& k) { return std::string(k.name); });
     if (one == std::end(known))
-      throw InputError(fmt::format("the column '{}' has no meaning here; there are time, temperature, pressure, births "
-                                   "and growth",
-                                   name));
+      throw InputError(
+          fmt::format("the column '{}' has no meaning here; there are time, temperature, pressure, births "
+                      "and growth",
+                      name));
     if (!one->values->empty()) throw InputError(fmt::format("two columns are called '{}'", name));
     const TableColumn reader(name, unit, one->dimension);
     for (std::size_t row = 0; row < table.rows.size(); ++row) {

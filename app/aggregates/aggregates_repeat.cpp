@@ -14,6 +14,12 @@
 namespace lampblack::app {
 namespace {
 
+// The run is asked to stop in the middle of a repeat.
+struct Cut {};
+void requireGoingOn() {
+  if (stopRequest() != 0) throw Cut{};
+}
+
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // What random numbers are for: RandomStream.
@@ -25,10 +31,9 @@ struct PopulationNumbers {
 };
 
 void describe(const AggregatesCase& made, const std::vector<const SphereAggregate*>& all,
-              const PopulationNumbers& population, RandomStream& random, std::span<double> row) {
+              const PopulationNumbers& population, FractalPoints& law, RandomStream& random, std::span<double> row) {
   double spheres = 0, largest = 0, volume = 0, surface = 0, radius = 0, logs = 0, squares = 0, necks = 0, widths = 0,
          gyration = 0, points = 0, length = 0, shadow = 0, mobility = 0, joints = 0, overlap = 0;
-  FractalPoints law;
   for (const SphereAggregate* one : all) {
     const auto n = static_cast<double>(one->count());
     spheres += n;
@@ -96,15 +101,18 @@ class Rows {
  public:
   Rows(const AggregatesCase& made, std::uint64_t repeat, std::span<double> rows)
       : made_(made), random_(made.seed, repeat, shadowPurpose), rows_(rows) {}
-  void add(const std::vector<const SphereAggregate*>& all, const PopulationNumbers& population) {
+  // The law of a fractal goes through the aggregates of a row; of those that are being built, of all sizes so far.
+  void add(const std::vector<const SphereAggregate*>& all, const PopulationNumbers& population, bool isBuilt = false) {
     const std::size_t width = aggregateQuantities().size();
-    if (!all.empty()) describe(made_, all, population, random_, rows_.subspan(next_ * width, width));
+    if (!isBuilt) law_ = {};
+    if (!all.empty()) describe(made_, all, population, law_, random_, rows_.subspan(next_ * width, width));
     ++next_;
   }
 
  private:
   const AggregatesCase& made_;
   RandomStream random_;
+  FractalPoints law_;
   std::span<double> rows_;
   std::size_t next_ = 0;
 };
@@ -115,26 +123,25 @@ std::vector<const SphereAggregate*> placesOf(const std::vector<SphereAggregate>&
   return places;
 }
 
-// Between rows, cut where the table of the gas has one. f(time, length) of each part; false where the run is to stop.
+// Between rows, cut where the table of the gas has one. f(time, length) of each part.
 template <class F>
-bool throughTime(const AggregatesCase& made, std::size_t row, const F& f) {
+void throughTime(const AggregatesCase& made, std::size_t row, const F& f) {
   for (double now = made.times[row - 1]; now < made.times[row];) {
-    if (stopRequest() != 0) return false;
     const double next = std::min(made.times[row], made.gas.nextChange(now));
     f(0.5 * (now + next), next - now);
     now = next;
   }
-  return true;
 }
 
 // Aggregates that were built grow and sinter, half of the growth before and half behind.
-bool treat(const AggregatesCase& made, std::vector<SphereAggregate>& all, Rows& rows) {
+void treat(const AggregatesCase& made, std::vector<SphereAggregate>& all, Rows& rows) {
   SphereSintering sintering(made.population.sintering, made.population.sinteringTolerance);
   double merged = 0;
   for (std::size_t row = 1; row < made.times.size(); ++row) {
-    const bool isWhole = throughTime(made, row, [&](double middle, double length) {
+    throughTime(made, row, [&](double middle, double length) {
       const double layer = 0.5 * length * made.gas.growthAt(middle);
       for (SphereAggregate& one : all) {
+        requireGoingOn();
         const auto before = static_cast<double>(one.count());
         growEverywhere(one, layer);
         sintering.advance(one, made.gas.at(middle).temperature, length);
@@ -142,14 +149,11 @@ bool treat(const AggregatesCase& made, std::vector<SphereAggregate>& all, Rows& 
         merged += before - static_cast<double>(one.count());
       }
     });
-    if (!isWhole) return false;
     rows.add(placesOf(all), {.merged = merged});
   }
-  return true;
 }
 
-// False where the run is to stop.
-bool build(const AggregatesCase& made, std::uint64_t repeat, std::vector<SphereAggregate>& all, Rows& rows) {
+void build(const AggregatesCase& made, std::uint64_t repeat, std::vector<SphereAggregate>& all, Rows& rows) {
   RandomStream random(made.seed, repeat, buildPurpose);
   BallisticJoining joining;
   const std::size_t count = made.aggregates;
@@ -157,12 +161,12 @@ bool build(const AggregatesCase& made, std::uint64_t repeat, std::vector<SphereA
   const std::vector<std::size_t> sizes = made.sizes();
   const std::vector<double> radii = drawRadii(made, repeat, byPairs ? count : count * sizes.back());
   for (std::size_t k = 0; k < count; ++k) all.emplace_back(radii[k]);
-  rows.add(placesOf(all), {});
+  rows.add(placesOf(all), {}, true);
   for (std::size_t size = 1; size < sizes.back(); size = byPairs ? 2 * size : size + 1) {
-    if (stopRequest() != 0) return false;
     const std::uint64_t before = joining.tries();
     std::vector<SphereAggregate> next;
     for (std::size_t k = 0; k < count; ++k) {
+      requireGoingOn();
       if (byPairs) {
         const std::size_t i = random.below(count), j = random.below(count - 1);
         next.push_back(joining.join(all[i], all[j < i ? j : j + 1], random));
@@ -172,16 +176,16 @@ bool build(const AggregatesCase& made, std::uint64_t repeat, std::vector<SphereA
     }
     all = std::move(next);
     const double tries = static_cast<double>(joining.tries() - before) / static_cast<double>(count);
-    if (std::ranges::binary_search(sizes, all.front().count())) rows.add(placesOf(all), {.tries = tries});
+    if (std::ranges::binary_search(sizes, all.front().count())) rows.add(placesOf(all), {.tries = tries}, true);
   }
-  return true;
 }
 
-bool collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::vector<SphereAggregate>& last) {
+void collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::vector<SphereAggregate>& last) {
   SpherePopulationOptions options = made.population;
   options.seed = made.seed;
   options.owner = repeat;
   SpherePopulation population(options);
+  population.setCallback(requireGoingOn);
   if (made.number > 0) population.fill(drawRadii(made, repeat, options.particles), made.number);
   std::vector<SphereParticle> kept;
   const auto addRow = [&] {
@@ -201,17 +205,15 @@ bool collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::
   };
   addRow();
   for (std::size_t row = 1; row < made.times.size(); ++row) {
-    const bool isWhole = throughTime(made, row, [&](double middle, double length) {
+    throughTime(made, row, [&](double middle, double length) {
       const double d = made.birthDiameter;
       const SphereSources sources{made.gas.birthsAt(middle), d > 0 ? volumeOfRadius(0.5 * d) : 0,
                                   made.gas.growthAt(middle)};
       population.advance(made.gas.at(middle), sources, length);
     });
-    if (!isWhole) return false;
     addRow();
   }
   for (const SphereParticle& p : kept) last.push_back(*p.aggregate);
-  return true;
 }
 
 }  // namespace
@@ -235,7 +237,9 @@ const std::vector<Quantity>& aggregateQuantities() {
       {"collision_diameter", "m", "diameter of collision, of collisions"},
       {"coordination", "1", "neighbours of a sphere"},
       {"overlap", "1", "volume shared by spheres that are not neighbours, over the volume of all"},
-      {"fractal_dimension", "1", "D of n = k (R_g/a)^D over the particles with output.fit_from spheres"},
+      {"fractal_dimension", "1",
+       "D of n = k (R_g/a)^D over the particles with output.fit_from spheres; while aggregates are built of all sizes "
+       "so far"},
       {"fractal_dimension_fit", "1", "standard error of D of the fit of a repeat"},
       {"fractal_prefactor", "1", "k of that law"},
       {"fractal_prefactor_fit", "1", "standard error of k of the fit of a repeat"},
@@ -250,10 +254,17 @@ void runAggregates(const AggregatesCase& made, std::uint64_t repeat, std::span<d
   std::ranges::fill(rows, nothing);
   Rows to(made, repeat, rows);
   std::vector<SphereAggregate> all;
-  const bool isWhole = made.build == AggregatesCase::Build::collisions
-                           ? collide(made, repeat, to, all)
-                           : build(made, repeat, all, to) && treat(made, all, to);
-  if (!isWhole || last == nullptr) return;
+  try {
+    if (made.build == AggregatesCase::Build::collisions) {
+      collide(made, repeat, to, all);
+    } else {
+      build(made, repeat, all, to);
+      treat(made, all, to);
+    }
+  } catch (const Cut&) {
+    return;
+  }
+  if (last == nullptr) return;
   all.resize(std::min(all.size(), made.drawn));
   *last = std::move(all);
 }

@@ -25,10 +25,9 @@ class PreparedAggregates : public PreparedRun {
   }
 
   [[nodiscard]] std::string summary() const override {
-    const std::string what =
-        case_.build == AggregatesCase::Build::collisions
-            ? fmt::format("a sample of {} particles", case_.population.particles)
-            : fmt::format("{} aggregates of {} spheres", case_.aggregates, case_.sizes().back());
+    const std::string what = case_.build == AggregatesCase::Build::collisions
+                                 ? fmt::format("a sample of {} particles", case_.population.particles)
+                                 : fmt::format("{} aggregates of {} spheres", case_.aggregates, case_.sizes().back());
     return fmt::format("{}, {} repeats, {} rows, {:g} s in the gas", what, case_.repeats, case_.rows(),
                        case_.times.back());
   }

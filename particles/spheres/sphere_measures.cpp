@@ -109,6 +109,8 @@ double shadowDiameter(double area) {
 
 void FractalPoints::add(double number, double gyrationOverRadius, double weight) {
   const double x = std::log(number), y = std::log(gyrationOverRadius);
+  smallest_ = count_ == 0 ? number : std::min(smallest_, number);
+  largest_ = std::max(largest_, number);
   ++count_;
   weight_ += weight;
   x_ += weight * x;
@@ -122,7 +124,7 @@ FractalFit FractalPoints::fit() const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double x = x_ / weight_, y = y_ / weight_;
   const double xx = xx_ / weight_ - x * x, xy = xy_ / weight_ - x * y, yy = yy_ / weight_ - y * y;
-  if (count_ < 3 || !(xx > 1e-12 * xx_ / weight_)) return {none, none, none, none};
+  if (count_ < 3 || !(largest_ >= range * smallest_)) return {none, none, none, none};
   const double slope = xy / xx, offset = y - slope * x;
   const double left = std::max(0.0, yy - slope * xy) / (static_cast<double>(count_) - 2) / xx;
   FractalFit fit;

@@ -33,9 +33,9 @@ namespace lampblack::particles {
 // Of the sphere with the same shadow, which is that of the same mobility where the gas has no collisions.
 [[nodiscard]] double shadowDiameter(double area);
 
-// n = prefactor (R_g/a)^dimension, by least squares of ln(R_g/a), which scatters, over ln n, which does not; points have
-// weights. Standard errors of both from how far the points lie from the line. NaN where there are fewer than three
-// points, or one n only.
+// n = prefactor (R_g/a)^dimension, by least squares of ln(R_g/a), which scatters, over ln n, which does not; points
+// have weights. Standard errors of both from how far the points lie from the line. NaN where there are fewer than three
+// points, or the largest n is less than `range` times the smallest.
 struct FractalFit {
   double dimension = 0, dimensionError = 0, prefactor = 0, prefactorError = 0;
 };
@@ -44,9 +44,11 @@ class FractalPoints {
   void add(double number, double gyrationOverRadius, double weight = 1);
   [[nodiscard]] FractalFit fit() const;
   [[nodiscard]] std::size_t count() const { return count_; }
+  static constexpr double range = 4;
 
  private:
   std::size_t count_ = 0;
+  double smallest_ = 0, largest_ = 0;
   double weight_ = 0, x_ = 0, y_ = 0, xx_ = 0, xy_ = 0, yy_ = 0;
 };
 

@@ -16,8 +16,8 @@
 
 namespace lampblack::particles {
 
-// Diameter of collision: of the sphere with the mean shadow along three lines at right angles, which no process chooses;
-// or a power of the number of spheres times their mean diameter.
+// Diameter of collision: of the sphere with the mean shadow along three lines at right angles, which no process
+// chooses; or a power of the number of spheres times their mean diameter.
 enum class SphereCollisionSize { shadow, fractal };
 
 struct SphereParticle {

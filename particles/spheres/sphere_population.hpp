@@ -1,7 +1,8 @@
-// A stochastic population of aggregates of spheres in space in a given gas: births, collisions on straight lines, growth
-// on the free surface, sintering. How often particles collide is the kernel's; where and how they touch is drawn in
-// space (BallisticJoining). Equal weights with doubling and contraction (EqualWeightMethod). Splitting (Strang 1968):
-// births and collisions for half a step, growth and sintering for all of it, births and collisions for half a step.
+// A stochastic population of aggregates of spheres in space in a given gas: births, collisions on straight lines,
+// growth on the free surface, sintering. How often particles collide is the kernel's; where and how they touch is drawn
+// in space (BallisticJoining). Equal weights with doubling and contraction (EqualWeightMethod). Splitting (Strang
+// 1968): births and collisions for half a step, growth and sintering for all of it, births and collisions for half a
+// step.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +10,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "core/modules.hpp"
 #include "core/particle_gas.hpp"
@@ -50,6 +52,9 @@ class SpherePopulation {
 
   // Replaces the population by spheres of these radii (m), `number` (1/m3) in all.
   void fill(std::span<const double> radii, double number);
+  // advance() calls it before each event and each step. An exception of it ends advance() in an incomplete state: the
+  // population cannot be used further.
+  void setCallback(std::function<void()> callback) { callback_ = std::move(callback); }
   // Over dt (s). NumericsError.
   void advance(const CarrierGas& gas, const SphereSources& sources, double dt);
 
@@ -69,7 +74,9 @@ class SpherePopulation {
   struct Events {
     SpherePopulation& of;
     double weight = 0;  // before the event, 1/m3
-    void look() {}
+    void look() {
+      if (of.callback_) of.callback_();
+    }
     void setTime(double) { weight = of.method_.weight(); }
     void giveBirth();
     template <class Process>
@@ -87,6 +94,7 @@ class SpherePopulation {
   Method method_;
   EvenBirths births_;
   SphereSintering sintering_;
+  std::function<void()> callback_;
   double time_ = 0;
   std::uint64_t merged_ = 0;
 };

@@ -19,8 +19,8 @@ namespace {
 using testing::HasSubstr;
 
 AggregatesCase readAggregates(const std::string& more, const std::filesystem::path& beside = "deck.yaml") {
-  return readAggregatesCase(Deck::parse(
-      "problem: aggregates\nspheres: {radius: 10 nm, density: 1800 kg/m^3}\n" + more, beside, {}, aggregatesSchema()));
+  return readAggregatesCase(Deck::parse("problem: aggregates\nspheres: {radius: 10 nm, density: 1800 kg/m^3}\n" + more,
+                                        beside, {}, aggregatesSchema()));
 }
 
 std::string refusedAggregates(const std::string& more) {
@@ -50,9 +50,9 @@ TEST(AggregatesCase, RowsOfWhatIsBuiltAndOfItsTime) {
 }
 
 TEST(AggregatesCase, SilicaHasItsLawAndDensity) {
-  const AggregatesCase made = readAggregatesCase(
-      Deck::parse("problem: aggregates\nspheres: {radius: 10 nm, material: silica}\nbuild: {by: equal_pairs}\n" + inHotGas,
-                  "deck.yaml", {}, aggregatesSchema()));
+  const AggregatesCase made = readAggregatesCase(Deck::parse(
+      "problem: aggregates\nspheres: {radius: 10 nm, material: silica}\nbuild: {by: equal_pairs}\n" + inHotGas,
+      "deck.yaml", {}, aggregatesSchema()));
   EXPECT_EQ(made.population.density, silica().density);
   EXPECT_EQ(made.population.sintering.mechanism, SinteringMechanism::viscousFlow);
   EXPECT_EQ(made.population.sintering.prefactor, silica().sintering.prefactor);
@@ -85,8 +85,8 @@ TEST(AggregatesCase, AGasFromATable) {
                           scratch.path() / "deck.yaml")
         .gas;
   };
-  const AggregatesGas gas =
-      write("time [ms],temperature [K],pressure [atm],births [1/cm^3/s],growth [nm/s]\n0,1000,1,1e10,0\n10,2000,1,0,4\n");
+  const AggregatesGas gas = write(
+      "time [ms],temperature [K],pressure [atm],births [1/cm^3/s],growth [nm/s]\n0,1000,1,1e10,0\n10,2000,1,0,4\n");
   EXPECT_DOUBLE_EQ(gas.at(0.0025).temperature, 1250);
   EXPECT_DOUBLE_EQ(gas.at(7).temperature, 2000);
   EXPECT_DOUBLE_EQ(gas.birthsAt(0.005), 0.5e16);
@@ -130,6 +130,10 @@ TEST(AggregatesCase, RowsOfARepeatAndTheirMeans) {
   EXPECT_NEAR(rows[width + at("shadow")], 1.8488 * M_PI * 1e-16, 0.03 * M_PI * 1e-16);
   EXPECT_TRUE(std::isnan(rows[2 * width + at("fractal_dimension")]));  // none has output.fit_from spheres
   EXPECT_TRUE(std::isnan(rows[2 * width + at("number")]));
+  made.fitFrom = 1;
+  runAggregates(made, 0, std::span(rows).first(made.rows() * width), nullptr);
+  EXPECT_DOUBLE_EQ(rows[2 * width + at("fitted")], 60);  // of all three sizes
+  EXPECT_NEAR(rows[2 * width + at("fractal_dimension")], 2, 0.5);
   EXPECT_GE(rows[width + at("lines")], 1);
   const std::vector<double> history = aggregateHistory(made, rows);
   const std::size_t columns = aggregateColumns().size(), first = 2 + 4 * at("gyration");

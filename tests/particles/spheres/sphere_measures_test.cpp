@@ -99,6 +99,11 @@ TEST(SphereMeasures, FractalLawOfPoints) {
   EXPECT_NEAR(exact.fit().prefactor, 1.3, 1e-11);
   EXPECT_NEAR(exact.fit().dimensionError, 0, 1e-6);
   EXPECT_TRUE(std::isnan(FractalPoints().fit().dimension));
+  FractalPoints narrow;
+  for (const double n : {20.0, 30.0, 79.0}) narrow.add(n, n);
+  EXPECT_TRUE(std::isnan(narrow.fit().dimension));
+  narrow.add(80, 80);
+  EXPECT_NEAR(narrow.fit().dimension, 1, 1e-12);
   // ln(R_g/a) = 0, 1, 4 at ln n = 0, 1, 2: the line -1/3 + 2 ln n, whose slope has the square of the error 1/3 and the
   // middle of the points 2/9; ln n of the line's zero is 1/6, 5/6 from the middle.
   FractalPoints points;
