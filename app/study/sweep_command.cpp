@@ -6,9 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "app/population_balance/convergence_study.hpp"
 #include "app/run/rank_launcher.hpp"
+#include "app/study/sweep_jobs.hpp"
 #include "app/study/sweep_run.hpp"
 #include "app/study/sweep_study.hpp"
 #include "app/study/sweep_table.hpp"
@@ -27,8 +29,9 @@ namespace fs = std::filesystem;
 struct SweepArguments {
   std::string study;
   std::vector<std::string> overrides, settings;
-  std::string folder;
-  bool force = false, check = false, sideBySide = false;
+  std::string folder, part;
+  int jobs = 0, ranksOfJob = 1;
+  bool force = false, check = false, sideBySide = false, collect = false;
 };
 
 int rankOf(MPI_Comm comm) {
@@ -110,13 +113,21 @@ void writeTables(const SweepStudy& study, const std::vector<RunOutcome>& outcome
 }
 
 // The worst failure decides how the command ends. Where the runs were cut short, its message is the first of that kind.
-void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const fs::path& folder) {
+void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const fs::path& folder,
+                   bool collect = false) {
   RunFailure worst = RunFailure::none;
   std::size_t failed = 0;
   for (const RunOutcome& outcome : outcomes) {
     worst = std::max(worst, outcome.failure);
     failed += outcome.failure != RunFailure::none ? 1 : 0;
   }
+  if (worst == RunFailure::stopped && collect)
+    collectively(comm, [&] {
+      throw SystemError(fmt::format(
+          "{} of {} runs are not finished or failed; hand their jobs in again, or give this command without "
+          "--collect",
+          failed, outcomes.size()));
+    });
   if (worst == RunFailure::stopped)
     raiseStopped(comm, agreedStopRequest(comm),
                  fmt::format("after {} of {} runs: they are in the tables in {}; the same command goes on",
@@ -134,12 +145,49 @@ void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const
   });
 }
 
+// The parts' own command lines, and who hands them in.
+void writeJobs(MPI_Comm comm, const SweepStudy& study, const SweepArguments& arguments) {
+  const fs::path folder = arguments.folder;
+  const RunFolder locked = prepareFolder(comm, folder, arguments.force);
+  JobsOptions options{arguments.study, folder, {}, arguments.jobs, arguments.ranksOfJob};
+  const auto add = [&](const char* flag, const std::vector<std::string>& values) {
+    for (const std::string& value : values) options.words.insert(options.words.end(), {flag, value});
+  };
+  add("--set", arguments.settings);
+  add("--study-set", arguments.overrides);
+  const fs::path script = folder / "jobs.slurm";
+  writeFileAtomically(script, jobsScript(study, options));
+  fmt::print(
+      "{} runs to do; hand them to SLURM by\n  sbatch {}\nand give this command with --collect in place of --jobs for "
+      "the table when they have ended\n",
+      study.runs.size(), script.string());
+}
+
+void runPart(MPI_Comm comm, const SweepStudy& part, const SweepArguments& arguments) {
+  const std::vector<RunOutcome> outcomes = runStudy(comm, part, arguments.folder, {arguments.force, false});
+  if (rankOf(comm) == 0) fmt::print("part {}: {} runs in {}\n", arguments.part, outcomes.size(), arguments.folder);
+  raiseFailures(comm, outcomes, arguments.folder);
+}
+
+void refuseTogether(const SweepArguments& arguments) {
+  const bool isPart = !arguments.part.empty();
+  if ((arguments.jobs > 0) + isPart + arguments.collect + arguments.check > 1)
+    throw InputError("--check, --jobs, --part, --collect: one of them at a time is expected");
+  if (arguments.collect && arguments.force)
+    throw InputError("--collect runs nothing, and --force would replace the runs; leave one of them out");
+}
+
 void sweep(const SweepArguments& arguments) {
   const MPI_Comm comm = PETSC_COMM_WORLD;
   const Deck deck = Deck::load(arguments.study, arguments.overrides, studySchema(), comm);
   SweepStudy study;
-  collectively(comm, [&] { study = readStudy(deck, arguments.settings); });
+  collectively(comm, [&] {
+    refuseTogether(arguments);
+    study = readStudy(deck, arguments.settings);
+    if (!arguments.part.empty()) study = partOf(std::move(study), readPart(arguments.part));
+  });
   checkDecks(comm, study);
+  if (!arguments.part.empty()) return runPart(comm, study, arguments);
   if (study.convergence) checkConvergence(comm, deck, *study.convergence);
   if (arguments.check) {
     if (rankOf(comm) != 0) return;
@@ -148,14 +196,16 @@ void sweep(const SweepArguments& arguments) {
                study.convergence ? " and a convergence study" : "");
     return;
   }
+  if (arguments.jobs > 0) return writeJobs(comm, study, arguments);
   const fs::path folder = arguments.folder;
   const RunFolder locked = prepareFolder(comm, folder, arguments.force);
-  const std::vector<RunOutcome> outcomes = runStudy(comm, study, folder, arguments.force);
+  const std::vector<RunOutcome> outcomes = runStudy(comm, study, folder, {arguments.force, arguments.collect});
   collectively(comm, [&] {
     if (rankOf(comm) == 0) writeTables(study, outcomes, folder);
   });
-  if (study.convergence && agreedStopRequest(comm) == 0) runConvergence(comm, *study.convergence, folder);
-  raiseFailures(comm, outcomes, folder);
+  if (study.convergence && !arguments.collect && agreedStopRequest(comm) == 0)
+    runConvergence(comm, *study.convergence, folder);
+  raiseFailures(comm, outcomes, folder, arguments.collect);
 }
 
 }  // namespace
@@ -174,9 +224,17 @@ void addSweepCommand(CLI::App& app, Command& command, int& ranks) {
   subcommand->add_flag(
       "--side-by-side", arguments->sideBySide,
       "Runs side by side, each on one rank (ranks_per_run=1), on all processors, or on those of --ranks.");
+  subcommand
+      ->add_option("--jobs", arguments->jobs,
+                   "Run nothing: write the runs as an array of so many jobs for SLURM, each on the ranks of --ranks.")
+      ->check(CLI::PositiveNumber);
+  subcommand->add_option("--part", arguments->part,
+                         "Run one part of the study and make no table: 3/10, as the jobs of --jobs do.");
+  subcommand->add_flag("--collect", arguments->collect, "Run nothing: the table of what the jobs have left.");
   subcommand->callback([arguments, &command, &ranks] {
     if (arguments->sideBySide) arguments->overrides.emplace_back("ranks_per_run=1");
-    if (arguments->sideBySide && ranks == 0 && !startedByLauncher()) ranks = processors();
+    if (arguments->jobs > 0) arguments->ranksOfJob = std::max(1, std::exchange(ranks, 0));
+    if (arguments->sideBySide && arguments->jobs == 0 && ranks == 0 && !startedByLauncher()) ranks = processors();
     command = {[arguments] { sweep(*arguments); }, true};
   });
 }

@@ -63,9 +63,10 @@ bool isSame(const DeckNode& a, const DeckNode& b) {
 
 // What an earlier run of this deck has left in the folder of a run.
 struct EarlierRun {
-  enum class State : int { none, done, unfinished, resumable };
+  enum class State : int { none, done, failed, unfinished, resumable };
   State state = State::none;
-  double seconds = 0.0;  // wall time of a finished one
+  double seconds = 0.0;  // wall time
+  std::string message;   // why it failed; of rank 0
 };
 
 // Of one rank. None also where the folder has another deck's run, which is refused later on.
@@ -81,10 +82,12 @@ EarlierRun earlierRun(const Deck& deck, const std::filesystem::path& folder) {
     if (ran == nullptr || status == nullptr || wall == nullptr) return earlier;
     if (!std::ranges::equal(ran->children, parsed(deck.resolvedJson()).children, isSame)) return earlier;
     const bool hasCheckpoint = !CheckpointFolder(folder).checkpoints().empty();
-    earlier.state = status->text == "done" ? EarlierRun::State::done
-                    : hasCheckpoint        ? EarlierRun::State::resumable
-                                           : EarlierRun::State::unfinished;
+    earlier.state = status->text == "done"     ? EarlierRun::State::done
+                    : hasCheckpoint            ? EarlierRun::State::resumable
+                    : status->text == "failed" ? EarlierRun::State::failed
+                                               : EarlierRun::State::unfinished;
     earlier.seconds = units::parseNumber(wall->text);
+    if (const DeckNode* message = record.child("message")) earlier.message = message->text;
   } catch (const InputError&) {
     return {};  // no record of a run
   }
@@ -125,9 +128,36 @@ void requireChain(const Deck& deck, const SweepStudy& study) {
                     deck.path().string(), study.chain, name));
 }
 
+// What is wrong with a run before its first step; empty where it can begin.
+std::string whyItCannotBegin(const SweepRun& run) {
+  try {
+    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), MPI_COMM_SELF);
+    static_cast<void>(problemOf(deck).prepare(MPI_COMM_SELF, deck));
+  } catch (const InputError& error) {
+    return error.what();
+  } catch (const NumericsError&) {
+    return {};  // is told in its row of the table
+  }
+  return {};
+}
+
+// The outcome of a run that is not finished and that is not run now. The same on all ranks of a group but its message.
+RunOutcome collected(const SweepRun& run, const EarlierRun& earlier) {
+  RunOutcome outcome{RunFailure::stopped, "not finished", earlier.seconds};
+  if (earlier.state == EarlierRun::State::failed) {
+    outcome.failure = RunFailure::numerics;
+    outcome.message = earlier.message;
+  } else if (earlier.state == EarlierRun::State::none) {
+    outcome.message = whyItCannotBegin(run);
+    if (!outcome.message.empty()) outcome.failure = RunFailure::input;
+    if (outcome.message.empty()) outcome.message = "not begun";
+  }
+  return outcome;
+}
+
 // `before`: the run in front of this one in its chain, if it ended well.
 RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* before, const std::filesystem::path& folder,
-                  bool force) {
+                  const SweepOptions& sweepOptions) {
   RunOutcome outcome;
   const double start = MPI_Wtime();
   try {
@@ -139,15 +169,17 @@ RunOutcome runOne(const Group& group, const SweepRun& run, const SweepRun* befor
                                        : "initial=" + results);
       deck = Deck::load(run.deck, overrides, deckKinds(), group.comm);
     }
-    RunOptions options{folder / run.name, force, overrides};
-    const EarlierRun earlier = force ? EarlierRun{} : agreedEarlierRun(group.comm, deck, options.folder);
+    RunOptions options{folder / run.name, sweepOptions.force, overrides};
+    const EarlierRun earlier = sweepOptions.force ? EarlierRun{} : agreedEarlierRun(group.comm, deck, options.folder);
     if (earlier.state == EarlierRun::State::done) {
       outcome.seconds = earlier.seconds;
       outcome.isTaken = true;
       return outcome;
     }
+    if (sweepOptions.collect) return collected(run, earlier);
     if (earlier.state == EarlierRun::State::resumable) options.restart = "";
-    if (earlier.state == EarlierRun::State::unfinished) options.force = true;
+    if (earlier.state == EarlierRun::State::unfinished || earlier.state == EarlierRun::State::failed)
+      options.force = true;
     problemOf(deck).prepare(group.comm, deck)->run(options);
   } catch (const InputError& error) {
     refuseLoneError(group, error);
@@ -188,19 +220,6 @@ void share(MPI_Comm comm, int from, RunOutcome& outcome) {
   MPI_Bcast(outcome.message.data(), length, MPI_CHAR, from, comm);
 }
 
-// What is wrong with a run before its first step; empty where it can begin.
-std::string whyItCannotBegin(const SweepRun& run) {
-  try {
-    const Deck deck = Deck::load(run.deck, run.overrides, deckKinds(), MPI_COMM_SELF);
-    static_cast<void>(problemOf(deck).prepare(MPI_COMM_SELF, deck));
-  } catch (const InputError& error) {
-    return error.what();
-  } catch (const NumericsError&) {
-    return {};  // is told in its row of the table
-  }
-  return {};
-}
-
 // Rank 0. InputError where not one run can begin: what is wrong is in the deck then, not in a value of the study. Where
 // none of the first twenty of many can, the runs themselves tell, so that a large study is not kept waiting.
 void requireThatOneCanBegin(const SweepStudy& study) {
@@ -234,7 +253,7 @@ void checkDecks(MPI_Comm comm, const SweepStudy& study) {
 }
 
 std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,
-                                 bool force) {
+                                 const SweepOptions& options) {
   const Group group(comm, study);
   int groupRank = 0;
   MPI_Comm_rank(group.comm, &groupRank);
@@ -257,9 +276,9 @@ std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const s
       std::fflush(stdout);
     }
     const bool follows = i % study.chain > 0 && outcomes[i - 1].failure == RunFailure::none;
-    outcomes[i] = runOne(group, run, follows ? &study.runs[i - 1] : nullptr, folder, force);
-    if (outcomes[i].failure == RunFailure::system || outcomes[i].failure == RunFailure::stopped)
-      ended = outcomes[i].failure;
+    outcomes[i] = runOne(group, run, follows ? &study.runs[i - 1] : nullptr, folder, options);
+    const RunFailure failure = outcomes[i].failure;
+    if (!options.collect && (failure == RunFailure::system || failure == RunFailure::stopped)) ended = failure;
     if (groupRank == 0 && outcomes[i].isTaken) {
       fmt::print("{} is there already\n", run.name);
       std::fflush(stdout);

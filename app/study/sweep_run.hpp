@@ -21,6 +21,11 @@ struct RunOutcome {
   bool isTaken = false;  // was there already; of the ranks of its group
 };
 
+struct SweepOptions {
+  bool force = false;    // earlier runs are replaced
+  bool collect = false;  // nothing is run: what is not finished has failed, by the record that it left
+};
+
 // Collective. Reads every deck of the study, so that a mistake in the last one is known before the first is run, and
 // makes all that is there before the first step of the first run that can begin. InputError, also where none can.
 void checkDecks(MPI_Comm comm, const SweepStudy& study);
@@ -31,6 +36,6 @@ void checkDecks(MPI_Comm comm, const SweepStudy& study);
 // would have followed has their outcome. Same outcomes on every rank. InputError where ranks_per_run does not divide
 // the ranks.
 std::vector<RunOutcome> runStudy(MPI_Comm comm, const SweepStudy& study, const std::filesystem::path& folder,
-                                 bool force);
+                                 const SweepOptions& options);
 
 }  // namespace lampblack::app

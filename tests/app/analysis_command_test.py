@@ -163,15 +163,17 @@ def check_sensitivity(run: Analyses) -> None:
     options["decks"] = options["decks"][:1]
     del options["measurements"]
     found = {}
-    for method, column in (("surrogate", "S_T"), ("saltelli", "S_T"), ("morris", "mu_star"), ("local", "d_ln_output_d_ln_parameter")):
-        options["sensitivity"] = {"method": method, "points": 8, "trajectories": 3}
+    for method, column, more in (("surrogate", "S_T", {}), ("saltelli", "S_T", {"points": 8}), ("morris", "mu_star", {"trajectories": 3}),
+                                 ("local", "d_ln_output_d_ln_parameter", {})):
+        options["sensitivity"] = {"method": method, **more}
         options["design"] = {"points": 32}
         run.good("sensitivity", options, method)
         found[method] = {row["parameter"]: float(row[column]) for row in run.table(f"{method}/sensitivity.csv") if row["output"] == "lean.end"}
         assert run.program("plot", run.folder / method).code == 0
     assert all(abs(one["h"]) > abs(one["T"]) for name, one in found.items() if name != "local"), found
     assert abs(found["surrogate"]["h"] + found["surrogate"]["T"] - 1) < 0.1, found
-    poor = run("sensitivity", options, "--set", "sensitivity.method=surrogate", "--set", "surrogate.least_r2=0.9999999", "--out", run.folder / "poor")
+    options["sensitivity"] = {"method": "surrogate"}
+    poor = run("sensitivity", options, "--set", "surrogate.least_r2=0.9999999", "--out", run.folder / "poor")
     assert poor.code == 3 and "numerics: surrogate" in poor.err and "held out" in poor.err, poor.err
 
 
@@ -257,6 +259,20 @@ def check_refusals(run: Analyses) -> None:
             ("given twice", changed(parameters=heating()["parameters"] * 2)), ("no file", changed(decks=[{"deck": "nowhere.yaml"}])),
             ("no deck of the name", parameter(shift=["nowhere"])), ("either result or table", changed(quantities={"T": {"column": "temperature"}}))):
         run.refused(words, "check", analysis)
+    for words, key, more in thinned(
+            ("'design.type: sobol' does not have this", "design", {"levels": 3}), ("design.type: factorial", "design", {"type": "factorial", "points": 9}),
+            ("'optimise.on: surrogate' does", "optimise", {"on": "surrogate", "most_points": 9}), ("uncertainty.method", "uncertainty", {"samples": 999}),
+            ("uncertainty.method", "uncertainty", {"sampler": "own"}), ("choose: saltelli", "sensitivity", {"points": 8}),
+            ("choose: morris", "sensitivity", {"method": "local", "trajectories": 3}), ("choose: morris", "sensitivity", {"levels": 4}),
+            ("choose: local", "sensitivity", {"method": "morris", "step": 0.1})):
+        run.refused(words, "check", changed(**{key: more}))
+    run.refused("'decks[0].use: validate' does not have this", "check", changed(decks=[{**heating()["decks"][1], "weight": 2}]))
+    for words, task, setting in thinned(
+            ("nothing of this `fit` uses the section propagate", "fit", "propagate.samples=100"), ("choose a method by surrogates", "fit", "surrogate.order=3"),
+            ("`sensitivity` uses the section optimise", "sensitivity", "optimise.starts=2"), ("`design` uses the section surrogate", "design", "surrogate.order=3")):
+        run.refused(words, task, heating(), "--set", setting)
+    launched = running.Process(run.program.command[-1], ["mpirun", "-n"], 2)("fit", run.file("analysis.yaml", heating()), "--out", run.folder / "refused")
+    assert launched.code == 2 and "starts its runs itself" in launched.err and not (run.folder / "refused").exists(), launched.err
     for words, text in thinned(("'furlong' is not a unit", DATA.replace("K", "furlong")), ("no deck of the name 'rich'", DATA + "rich,T,20,1300,5,\n"),
                         ("no quantity 'U'", DATA + "lean,U,20,1300,5,\n"), ("number is expected", DATA + "lean,T,20,hot,5,\n"),
                         ("error has to be above 0", DATA + "lean,T,20,1300,0,\n"), ("6 fields", DATA + "lean,T,20,1300\n"),

@@ -6,6 +6,7 @@ Usage: sweep_command_test.py EXECUTABLE RANKS MPIEXEC...
 import csv
 import json
 import pathlib
+import subprocess
 import sys
 import tempfile
 
@@ -62,6 +63,39 @@ def check_side_by_side(program: running.Program, folder: pathlib.Path) -> None:
     result = program("sweep", deck, "--out", out, "--side-by-side", *(["--ranks", program.ranks] if program.ranks > 1 else []))
     assert result.code == 0 and "of 3 runs behind, to go " in result.out, f"exit code {result.code}\n{result.err}{result.out}"
     assert [json.loads((out / row["run"] / "run.json").read_text(encoding="utf-8"))["ranks"] for row in rows(out / "study.csv")] == [1, 1, 1]
+
+
+def check_jobs(program: running.Program, folder: pathlib.Path) -> None:
+    """The script of an array of jobs runs as it is, a row a job; their table is that of a study in one go, and says what is missing."""
+    text = STUDY.replace("temperature, values: [1100 K, 1200 K]", "composition, values: ['H2: 2, O2: 1, N2: 4', 'H2: 1, O2: 1, N2: 4', 'NONE: 1']")
+    deck, out = study(folder, text), folder / "jobs"
+    result = program("sweep", deck, "--out", out, "--jobs", "8", "--check")
+    assert result.code == 2 and "one of them at a time" in result.err, result.err
+    result = program("sweep", deck, "--out", out, "--jobs", "8", *(["--ranks", program.ranks] if program.ranks > 1 else []))
+    script = out / "jobs.slurm"
+    assert result.code == 0 and f"sbatch {script}" in result.out and not list(out.glob("*/run.json")), f"{result.code}\n{result.err}{result.out}"
+    text = script.read_text(encoding="utf-8")
+    assert "#SBATCH --array=1-3\n" in text and f"#SBATCH --ntasks={program.ranks}\n" in text, text
+
+    def job(place) -> int:
+        return subprocess.run(["bash", script], env={**running.environment(), "SLURM_ARRAY_TASK_ID": str(place)}, capture_output=True, check=False).returncode
+
+    def collected() -> tuple:
+        done = program("sweep", deck, "--out", out, "--collect")
+        return done, [(row["status"], row["message"], row["ignition_delays_s.max_dTdt"]) for row in rows(out / "study.csv")]
+
+    assert job(2) == 0 and not (out / "study.csv").exists()
+    result, table = collected()
+    assert result.code == 3 and "2 of 3 runs are not finished or failed" in result.err, f"{result.code}\n{result.err}"
+    assert [row[0] for row in table] == ["stopped", "done", "wrong input"] and table[0][1] == "not begun" and "NONE" in table[2][1], table
+    assert (job(1), job(3)) == (0, 2)
+    before = running.snapshot(out)
+    result, table = collected()
+    assert result.code == 2 and "1 of 3 runs failed" in result.err and [row[0] for row in table] == ["done", "done", "wrong input"], table
+    assert all(running.snapshot(out)[path] == content for path, content in before.items() if "run.json" in str(path)), "something was run"
+    whole = folder / "in_one_go"
+    assert program("sweep", deck, "--out", whole).code == 2
+    assert [row[0::2] for row in table] == [(row["status"], row["ignition_delays_s.max_dTdt"]) for row in rows(whole / "study.csv")]
 
 
 def check_unfinished(program: running.Program, folder: pathlib.Path) -> None:
@@ -267,7 +301,7 @@ def main(executable: str, ranks: str, *mpiexec: str) -> None:
     program = running.Program(executable, list(mpiexec), int(ranks))
     alone = running.Program(executable, list(mpiexec), 1)
     tasks = [(check_good, program), (check_unfinished, program), (check_chain, program), (check_checkpoint, program), (check_failures, program),
-             (check_refused, program), (check_groups, program), (check_side_by_side, program.process_of_its_own),
+             (check_refused, program), (check_jobs, program.process_of_its_own), (check_groups, program), (check_side_by_side, program.process_of_its_own),
              (check_population, program)]
     if program.ranks > 1:
         tasks.append((check_population, alone))

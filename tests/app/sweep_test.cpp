@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/population_balance/convergence_study.hpp"
+#include "app/study/sweep_jobs.hpp"
 #include "app/study/sweep_study.hpp"
 #include "app/study/sweep_table.hpp"
 #include "core/modules.hpp"
@@ -72,6 +73,35 @@ TEST(Study, ContradictionsAreToldWithTheirPlace) {
               ThrowsMessage<InputError>(HasSubstr("half of the product")));
   EXPECT_THAT([] { studyOf("study: s\nconvergence: {deck: a.yaml, particles: [8, 16], reference: {type: run}}\n"); },
               ThrowsMessage<InputError>(HasSubstr("'method'")));
+}
+
+TEST(StudyParts, EveryChainIsInOnePart) {
+  const SweepStudy study =
+      studyOf("study: s\ndeck: x.yaml\nchain: 2\nvary:\n  - {key: p, values: [1, 2, 3, 4, 5, 6, 7, 8, 9]}\n");
+  for (const std::size_t parts : {1U, 2U, 3U, 5U, 8U}) {
+    std::vector<std::string> names;
+    for (std::size_t place = 1; place <= parts; ++place) {
+      const SweepStudy part = partOf(study, {place, parts});
+      EXPECT_TRUE(part.runs.empty() || names.size() % 2 == 0) << place << " of " << parts;
+      EXPECT_LE(part.runs.size(), 2 * ((5 + parts - 1) / parts)) << place << " of " << parts;
+      for (const SweepRun& run : part.runs) names.push_back(run.name);
+    }
+    ASSERT_EQ(names.size(), study.runs.size()) << parts;
+    for (std::size_t i = 0; i < names.size(); ++i) EXPECT_EQ(names[i], study.runs[i].name);
+  }
+  const StudyPart part = readPart("3/10");
+  EXPECT_EQ(part.place, 3U);
+  EXPECT_EQ(part.count, 10U);
+  for (const char* text : {"", "3", "0/2", "3/2", "1/2x", "1/", "/2", "-1/2"})
+    EXPECT_THROW(readPart(text), InputError) << text;
+}
+
+TEST(StudyParts, TheScriptHasNoMoreJobsThanChains) {
+  const SweepStudy study = studyOf("study: s\ndeck: x.yaml\nvary:\n  - {key: p, values: [1, 2, 3]}\n");
+  const std::string script = jobsScript(study, {"/a b/study.yaml", "/out", {"--set", "it=isn't"}, 8, 4});
+  EXPECT_THAT(script, HasSubstr("#SBATCH --array=1-3\n#SBATCH --ntasks=4\n"));
+  EXPECT_THAT(script, HasSubstr(" sweep '/a b/study.yaml' --out /out --set 'it=isn'\\''t' --part "
+                                "\"$SLURM_ARRAY_TASK_ID/3\" --ranks 4\n"));
 }
 
 TEST(StudyTable, ResultsOfARecordAreNamedByTheirPath) {

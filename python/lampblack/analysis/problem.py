@@ -84,7 +84,7 @@ class Experiment:
         if not self.deck.is_file():
             raise InputError(f"{where}.deck: there is no file {self.deck}")
         stem = self.deck.parent.name if self.deck.stem == "deck" else self.deck.stem
-        self.name, self.set, self.weight, self.use = given.get("name", stem), given["set"], given["weight"], given["use"]
+        self.name, self.set, self.weight, self.use = given.get("name", stem), given["set"], given.get("weight", 1.0), given["use"]
         self.abscissa_from, self.abscissa_to = given.get("abscissa_from", -math.inf), given.get("abscissa_to", math.inf)
 
 
