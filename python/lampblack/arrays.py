@@ -6,6 +6,8 @@ import csv
 import numpy as np
 
 from .damage import reading
+from .errors import InputError
+from .units import quantity
 
 trapezoid = getattr(np, "trapezoid", None) or np.trapz  # its name since numpy 2
 
@@ -48,6 +50,17 @@ def _plain(value):
     return type(value)(map(_plain, value)) if type(value) in (list, tuple) else value
 
 
+def _sortable(column):
+    """A column of quantities as their values, any other as it is."""
+    if column.dtype.kind not in "UO" or not len(column):
+        return column
+    try:
+        values, dimensions = zip(*(quantity(str(text)) for text in column))
+    except InputError:
+        return column
+    return np.array(values) if len(set(dimensions)) == 1 else column
+
+
 class Table(collections.abc.Mapping):
     """Columns by name, each an Array with a row for each point, time or cell. The first is what the rows go along."""
 
@@ -77,8 +90,9 @@ class Table(collections.abc.Mapping):
         return f"<Table of {self.rows} rows: {', '.join(name + (f' [{c.unit}]' if c.unit else '') for name, c in self.items())}>"
 
     def sorted_by(self, *names, descending=False):
-        """The rows in the order of a column, of those alike by the next; numbers that are not known come last."""
-        order = np.lexsort([np.asarray(self[name]) for name in reversed(names)], axis=0)
+        """The rows in the order of a column, of those alike by the next; numbers that are not known come last. Texts such as '900 K' are
+        in the order of their values where all of a column are values of one kind."""
+        order = np.lexsort([_sortable(np.asarray(self[name])) for name in reversed(names)], axis=0)
         if descending:
             order = order[::-1]
             known = np.asarray(self[names[0]])[order]

@@ -62,6 +62,17 @@ def parse_unit(text):
     return factor, 0.0, dimension
 
 
+def quantity(text):
+    """The value of a number and its unit ('900 K', '2 1/cm^3') in SI, and its dimension. InputError."""
+    number, _, unit = text.strip().partition(" ")
+    try:
+        value = float(number)
+    except ValueError as error:
+        raise InputError(f"a number is expected, found '{text}'") from error
+    factor, offset, dimension = parse_unit(unit) if unit else (1.0, 0.0, _NONE)
+    return factor * value + offset, dimension
+
+
 def si_unit(dimension):
     """A dimension in words of base units: 'kg m^-1 s^-2', '1' for a plain number."""
     return " ".join(name if power == 1 else f"{name}^{power}" for name, power in zip(BASE, dimension) if power) or "1"

@@ -38,6 +38,8 @@ def check_tables():
     runs = arrays.Table({"run": arrays.Array(["b", "a", "c"]), "T": arrays.Array([2.0, np.nan, 1.0], "T", "K"), "n": arrays.Array([1, 1, 0])})
     assert list(runs.sorted_by("T")["run"]) == ["c", "b", "a"] and runs.sorted_by("run")["T"].unit == "K"
     assert list(runs.sorted_by("T", descending=True)["run"]) == ["b", "c", "a"] and list(runs.sorted_by("n", "run")["run"]) == ["c", "a", "b"]
+    texts = arrays.Table({"T": arrays.Array(["1100 K", "50 degC", "900 K"]), "x": arrays.Array(["2 m", "10 K", "1 m"])})
+    assert list(texts.sorted_by("T")["T"]) == ["50 degC", "900 K", "1100 K"] and list(texts.sorted_by("x")["x"]) == ["1 m", "10 K", "2 m"]
     other = arrays.Table({"run": arrays.Array(["c", "b", "x"]), "T": arrays.Array([7.0, 8.0, 9.0], "T", "K"), "f": arrays.Array([0.1, 0.2, 0.3], "f", "ppm")})
     both = runs.joined(other, "run")
     assert list(both["run"]) == ["b", "c"] and list(both["f"]) == [0.2, 0.1] and list(both["T_2"]) == [8.0, 7.0] and both["f"].unit == "ppm"
@@ -121,6 +123,36 @@ def check_problem(folder):
     options = options_of(folder)
     options["parameters"][0]["set"] = ["rate={low: {k}, none: {}}"]
     assert problem.Problem(options, folder / "analysis.yaml").settings(known.experiments[0], x)[1] == f"rate={{low: {known.values(x)['k']!r}, none: {{}}}}"
+
+
+SHEETS = {  # the same rows as several programs write them
+    "comma, point, remark": "# mine\ndeck,quantity,abscissa [mm],value [1/cm³],error [%],source\none,f,2.5,1.5e3,10.5,\"Doe, 2020\"\n",
+    "Excel, German": "Deck;Quantity;Abscissa [mm];Value [1/cm³];Error [%];Source\r\none;f;2,5;1,5E+03;10,5;Doe, 2020\r\n;;;;;\r\n",
+    "the same, marked as UTF-8": "\ufeffdeck;quantity;abscissa [mm];value [1/cm3];error;source\r\none;f;2,5;1500;10,5 %;Doe, 2020\r\n",
+    "Excel's own line": "sep=;\r\ndeck;quantity;abscissa [mm];value [1/cm³];error [%];source\r\none;f;2.5;1500;10,5;Doe, 2020\r\n",
+    "tabs": "deck\tquantity\tabscissa [mm]\tvalue [cm⁻³]\terror [%]\tsource\none\tf\t2,5\t1500\t10,5 %\tDoe, 2020\n",
+    "empty columns": "deck,quantity,abscissa [mm],value [1/cm3],error [%],source,,\n,,,,,,,\none,f,2.5,1500,10.5,\"Doe, 2020\",,\n"}
+
+
+def check_spreadsheets(folder):
+    known = problem.Problem(options_of(folder), folder / "analysis.yaml")
+    for name, text in SHEETS.items():
+        for encoding in ("utf-8", *([] if text[0] == "\ufeff" else ["utf-16"]), *([] if text[0] == "\ufeff" or "⁻" in text else ["cp1252"])):
+            (folder / "m.csv").write_bytes(text.encode(encoding))
+            (row,) = measurements.read_measurements(known)
+            assert np.allclose([row.place, row.value, row.error], [2.5e-3, 1.5e9, 1.575e8], rtol=1e-12, atol=0), (name, encoding, row)
+            assert row.source == "Doe, 2020", (name, encoding, row)
+    for words, text in (("m.csv:3: a number is expected, found '1.234,5'; write it without marks", "deck;quantity;value;error\n\none;f;1.234,5;1\n"),
+                        ("found '1,5'", "deck,quantity,value,error\none,f,\"1,5\",1\n"), ("4 fields are expected, found 5", "deck;quantity;value;error\none;f;1;1;x\n"),
+                        ("the file is empty", ";;;\n")):
+        (folder / "m.csv").write_text(text, encoding="utf-8")
+        running.refused(InputError, words, measurements.read_measurements, known)
+    made = work.Work(problem.Problem({**options_of(folder), "ranks_per_run": 1, "design": {"type": "file", "file": "d.csv", "seed": 1}}, folder / "a.yaml"), folder)
+    (folder / "d.csv").write_bytes("k;z\r\n10;0,0005\r\n1;-0,001\r\n".encode("utf-16"))
+    assert np.allclose(made.design(), [[0.5, 0.75], [0, 0]], rtol=0, atol=1e-12)
+    for words, text in (("has no column z", "k\n1\n"), ("d.csv:2: a number", "k;z\n1;x\n"), ("2 fields", "k;z\n1\n")):
+        (folder / "d.csv").write_text(text, encoding="utf-8")
+        running.refused(InputError, words, made.design)
 
 
 class Ran(runs.Runs):

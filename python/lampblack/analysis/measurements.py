@@ -1,11 +1,9 @@
 """What was measured, or what is looked at where nothing was: each an `Output`, one number of a run."""
 
-import csv
 import dataclasses
-import math
 
-from ..damage import reading
 from ..errors import InputError
+from ..spreadsheet import Sheet, plain_unit
 from ..units import parse_unit, si_unit
 
 COLUMNS = ("deck", "quantity", "abscissa", "value", "error", "source")
@@ -32,29 +30,19 @@ class Output:
         return f"{self.experiment.name}.{self.quantity.name}" + ("" if self.place is None else f"@{self.place:.6g}")
 
 
-def _number(text, where):
-    try:
-        number = float(text)
-    except ValueError as error:
-        raise InputError(f"{where}: a number is expected, found '{text}'") from error
-    if not math.isfinite(number):
-        raise InputError(f"{where}: a number that is finite is expected, found '{text}'; leave the row out")
-    return number
-
-
 def _read(path, experiments, quantities):
     try:
-        with open(reading(path), newline="", encoding="utf-8-sig") as file:
-            rows = [(number, row) for number, row in enumerate(csv.reader(file), 1) if row and any(row) and not row[0].lstrip().startswith("#")]
+        sheet = Sheet(path)
     except OSError as error:
         raise InputError(f"measurements.files: {path}: {error.strerror}") from error
+    rows = sheet.rows
     if not rows:
         raise InputError(f"{path}: the file is empty; expected the columns {', '.join(COLUMNS)}")
     line, head = rows[0]
     places, units = {}, {}
     for place, title in enumerate(head):
-        name, _, unit = title.strip().partition("[")
-        name, unit = name.strip(), unit.rstrip("] ").strip()
+        name, _, unit = title.partition("[")
+        name, unit = name.strip().lower(), plain_unit(unit.rstrip("] ").strip())
         if name not in COLUMNS:
             raise InputError(f"{path}:{line}: there is no column '{name}' of measurements; expected {', '.join(COLUMNS)}")
         places[name] = place
@@ -70,7 +58,7 @@ def _read(path, experiments, quantities):
         where = f"{path}:{line}"
         if len(row) != len(head):
             raise InputError(f"{where}: {len(head)} fields are expected, found {len(row)}")
-        text = {name: row[place].strip() for name, place in places.items()}
+        text = {name: row[place] for name, place in places.items()}
         if text["deck"] not in experiments:
             raise InputError(f"{where}: there is no deck of the name '{text['deck']}'; expected one of {', '.join(experiments)}")
         if text["quantity"] not in quantities:
@@ -80,7 +68,7 @@ def _read(path, experiments, quantities):
         def si(name):
             unit, _ = units[name]
             factor, offset, dimension = unit or (1.0, 0.0, None)
-            return _number(text[name], where) * factor + offset, dimension
+            return sheet.number(text[name], where) * factor + offset, dimension
 
         if text["value"]:
             output.value, output.dimension = si("value")
@@ -95,7 +83,7 @@ def _read(path, experiments, quantities):
             if output.quantity.along is None:
                 raise InputError(f"{where}: there is an abscissa, and quantities.{output.quantity.name} has no key along")
         share = units["error"][1] == "%" or text["error"].endswith("%")
-        number = _number(text["error"].rstrip("% "), where)
+        number = sheet.number(text["error"].rstrip("% "), where)
         if number <= 0:
             raise InputError(f"{where}: the error has to be above 0, or nothing is compared with it; found '{text['error']}'")
         if share:

@@ -4,8 +4,8 @@ import pathlib
 
 import numpy as np
 
-from ..arrays import table_of_csv
 from ..errors import InputError, NumericsError
+from ..spreadsheet import Sheet
 from . import designs
 from .runs import BEYOND, Runs
 from .surrogate import Surrogate
@@ -54,11 +54,19 @@ class Work:
             return designs.one_at_a_time(self.problem.start, design["levels"])
         if "file" not in design:
             raise InputError("design.file: the type file needs the name of a CSV file with a column a parameter")
-        table = table_of_csv(self.problem.folder / design["file"])
+        try:
+            sheet = Sheet(self.problem.folder / design["file"])
+        except OSError as error:
+            raise InputError(f"design.file: {design['file']}: {error.strerror}") from error
+        (_, head), *rows = sheet.rows or [(1, [])]
         for p in self.problem.parameters:
-            if p.name not in table:
+            if p.name not in head:
                 raise InputError(f"design.file: {design['file']} has no column {p.name}")
-        points = np.column_stack([p.place(np.asarray(table[p.name], float)) for p in self.problem.parameters])
+        for line, row in rows:
+            if len(row) != len(head):
+                raise InputError(f"{design['file']}:{line}: {len(head)} fields are expected, found {len(row)}")
+        points = np.column_stack([p.place(np.array([sheet.number(row[head.index(p.name)], f"{design['file']}:{line}") for line, row in rows]))
+                                  for p in self.problem.parameters])
         if not np.all((points > -1e-9) & (points < 1 + 1e-9)):
             raise InputError(f"design.file: a row {int(np.argmin(np.all((points > -1e-9) & (points < 1 + 1e-9), axis=1))) + 1} is beyond the bounds")
         return np.clip(points, 0, 1)
