@@ -3,6 +3,8 @@
 Usage: analysis_data_test.py [EXECUTABLE]
 """
 
+import contextlib
+import io
 import json
 import pathlib
 import sys
@@ -12,12 +14,12 @@ import types
 import running
 
 np = running.package("numpy")
-running.needs("scipy")
+running.needs("scipy", "h5py")
 sys.path.insert(0, str(running.SOURCE / "python"))
 
 from lampblack import arrays  # noqa: E402
-from lampblack.analysis import measurements, objective, problem, runs, tables, work  # noqa: E402
-from lampblack.errors import InputError  # noqa: E402
+from lampblack.analysis import fit, measurements, objective, problem, runs, tables, work  # noqa: E402
+from lampblack.errors import InputError, NumericsError  # noqa: E402
 from lampblack.units import parse_unit, si_unit  # noqa: E402
 
 
@@ -188,6 +190,16 @@ def check_runs(folder):
     assert len(made.warnings) == 1 and "1 of 1 values of one.f@0.0029 are not above 0" in made.warnings[0], made.warnings
 
 
+def check_follow():
+    """What a study says is kept; how far it is, passed on now and then."""
+    lines = ["--- run 1 of 9: a\n", "study: about 1 of 9 runs behind, to go 8 s\n", "study: about 2 of 9 runs behind, to go 7 s\n", "study in here\n"]
+    for seconds, told in ((0.0, 2), (60.0, 0)):
+        kept, said = io.StringIO(), io.StringIO()
+        with contextlib.redirect_stdout(said):
+            runs._follow(lines, kept, seconds)
+        assert kept.getvalue() == "".join(lines) and said.getvalue() == "".join(lines[1:1 + told]), (said.getvalue(), told)
+
+
 def check_kept_failures(folder):
     """Of an earlier session a failure of numerics is kept, a wrong input is tried again."""
     options = {**options_of(folder), "ranks_per_run": 1}
@@ -224,6 +236,24 @@ def check_objective(folder):
     assert np.allclose(rest[0], expected, rtol=1e-12), (rest[0], expected)
     assert np.isnan(rest[1][0]) and target.phi_of_data(rest[1]) == np.inf and np.isnan(rest[2][0])
     assert abs(target.phi_of_data(rest[0]) - expected[0] ** 2 - expected[1] ** 2) < 1e-12
+
+
+def check_noisy_surrogates(folder):
+    """Of a number that does not change, runs show their noise alone: no surrogate of it is refused, but where it misses more than they say."""
+    options = {**options_of(folder), "ranks_per_run": 1, "design": {"seed": 1}, "surrogate": {"order": 2, "pairs": True, "least_r2": 0.9}}
+    known = problem.Problem(options, folder / "analysis.yaml")
+    rows = [measurements.Output(known.experiments[0], known.quantities["T"], value=1.0, error=1e-3)]
+    draw = np.random.default_rng(3)
+    points = draw.random((64, 2))
+    for slope, noise, error, good in ((0.0, 0.01, 0.01, True), (0.0, 0.01, 0.005, False), (0.0, 2e-4, 0.0, True), (0.0, 6e-4, 0.0, False), (1.0, 0.01, 0.0, True)):
+        model = fit.Model(work.Work(known, folder), objective.Objective(known, rows))
+        values = 1 + slope * points[:, :1] + noise * draw.standard_normal((64, 1))
+        model.work.say = lambda text: None
+        if good:
+            model.make_surrogates(points, values, np.full((64, 1), error))
+            assert 0.7 * max(noise, error) < model.noise[0] < 1.5 * max(noise, error), (slope, noise, error, model.noise)
+        else:
+            running.refused(NumericsError, "below surrogate.least_r2", model.make_surrogates, points, values, np.full((64, 1), error))
 
 
 def main():

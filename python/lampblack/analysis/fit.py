@@ -13,6 +13,7 @@ from .surrogate import Together
 from .tables import aligned, write_best, write_points, write_record, write_table
 
 AT_BOUND = 1e-3  # of the range
+OF_ERROR, OF_NOISE = 0.3, 1.5  # what a surrogate may miss at points held out, whatever its R2: of the error, of the runs' own noise
 ALIKE = 0.95  # correlation from which two parameters cannot be told apart
 
 
@@ -32,9 +33,10 @@ class Model:
 
     def make_surrogates(self, points, values, errors):
         transformed = self.target.transformed(values)
-        self.surrogates = self.work.surrogates(points, transformed, [o.name for o in self.target.outputs], 0.3 * self.target.sigma)
-        self.together = Together(self.surrogates)
         own = np.nan_to_num(np.nanmean(self.target.transformed_errors(values, errors), axis=0))
+        enough = np.hypot(OF_ERROR * self.target.deviations(0.0), OF_NOISE * own)
+        self.surrogates = self.work.surrogates(points, transformed, [o.name for o in self.target.outputs], enough)
+        self.together = Together(self.surrogates)
         # What a surrogate misses counts as an error too; where runs are stochastic their scatter is in it.
         self.noise = np.maximum(own, [s.deviation for s in self.surrogates])
 

@@ -7,6 +7,8 @@ import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
+import time
 
 import numpy as np
 
@@ -16,6 +18,7 @@ from ..program import executable
 from .measurements import refuse_other_dimension
 
 
+PROGRESS = "study: about"  # how its line begins, study_progress.cpp
 BEYOND = "a measured place, with its shift, lies beyond the run"
 
 
@@ -117,15 +120,18 @@ class Runs:
         ranks = min(self.ranks, len(runs) * self.problem.options["ranks_per_run"])
         if ranks > 1:
             words += ["--ranks", str(ranks)]
-        with open(batch / "log.txt", "a", encoding="utf-8") as log:
-            sweep = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.PIPE, text=True, errors="replace")
+        with open(batch / "log.txt", "a", encoding="utf-8") as log, tempfile.TemporaryFile("w+", errors="replace") as errors:
+            sweep = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors, text=True, errors="replace")
             try:
-                message = sweep.communicate()[1]
+                _follow(sweep.stdout, log)
+                code = sweep.wait()
             except BaseException:
                 sweep.terminate()  # it keeps what has ended
+                sweep.stdout.close()
                 sweep.wait()
                 raise
-        code = sweep.returncode
+            errors.seek(0)
+            message = errors.read()
         if code == 2 and self.any and not (batch / "study.json").is_file():
             # Not one of these can begin, while others could: it is the points.
             self._failed.update((key, error_of(code, message).message) for key, *_ in runs)
@@ -231,6 +237,17 @@ exec {shutil.which("lampblack") or executable()} sweep "$batch/study.yaml" --out
                 else:
                     values[i, k], errors[i, k] = self._of_table(folder, output, self.problem.shift(output.experiment, x))
         return values, errors
+
+
+def _follow(lines, log, seconds=10.0):
+    """Keeps what a study says, and passes on how far it is, not more often than that."""
+    told = time.monotonic()
+    for line in lines:
+        log.write(line)
+        if line.startswith(PROGRESS) and time.monotonic() - told > seconds:
+            print(line.rstrip(), flush=True)
+            log.flush()
+            told = time.monotonic()
 
 
 def _parts(runs, count):
