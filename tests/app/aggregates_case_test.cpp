@@ -10,6 +10,7 @@
 #include "app/aggregates/aggregates_output.hpp"
 #include "app/aggregates/aggregates_repeat.hpp"
 #include "core/errors.hpp"
+#include "particles/trees/tree_material.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
 
