@@ -43,7 +43,7 @@ class Sheet:
 
     def number(self, text, where):
         """Of a field; InputError with its place."""
-        plain = text.replace(",", ".") if self.separator != "," and text.count(",") == 1 and "." not in text else text
+        plain = text.replace(",", ".") if self.separator != "," else text
         try:
             number = float(plain)
         except ValueError as error:

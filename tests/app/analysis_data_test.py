@@ -40,8 +40,10 @@ def check_tables():
     runs = arrays.Table({"run": arrays.Array(["b", "a", "c"]), "T": arrays.Array([2.0, np.nan, 1.0], "T", "K"), "n": arrays.Array([1, 1, 0])})
     assert list(runs.sorted_by("T")["run"]) == ["c", "b", "a"] and runs.sorted_by("run")["T"].unit == "K"
     assert list(runs.sorted_by("T", descending=True)["run"]) == ["b", "c", "a"] and list(runs.sorted_by("n", "run")["run"]) == ["c", "a", "b"]
-    texts = arrays.Table({"T": arrays.Array(["1100 K", "50 degC", "900 K"]), "x": arrays.Array(["2 m", "10 K", "1 m"])})
-    assert list(texts.sorted_by("T")["T"]) == ["50 degC", "900 K", "1100 K"] and list(texts.sorted_by("x")["x"]) == ["1 m", "10 K", "2 m"]
+    texts = arrays.Table({"T": arrays.Array(["1100 K", "700 degC", "900 K"]), "x": arrays.Array(["2 m", "10 K", "1 m"]),
+                         "y": arrays.Array(["2 m", "30 cm", "1 m"])})
+    assert list(texts.sorted_by("y")["y"]) == ["30 cm", "1 m", "2 m"]
+    assert list(texts.sorted_by("T")["T"]) == ["900 K", "700 degC", "1100 K"] and list(texts.sorted_by("x")["x"]) == ["1 m", "10 K", "2 m"]
     other = arrays.Table({"run": arrays.Array(["c", "b", "x"]), "T": arrays.Array([7.0, 8.0, 9.0], "T", "K"), "f": arrays.Array([0.1, 0.2, 0.3], "f", "ppm")})
     both = runs.joined(other, "run")
     assert list(both["run"]) == ["b", "c"] and list(both["f"]) == [0.2, 0.1] and list(both["T_2"]) == [8.0, 7.0] and both["f"].unit == "ppm"

@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import pathlib
+import shlex
 import shutil
 import subprocess
 import tempfile
@@ -47,7 +48,8 @@ class Runs:
     def __init__(self, problem, folder, ranks=None, jobs=None):
         self.problem, self.folder, self.jobs = problem, pathlib.Path(folder), jobs
         per_run = problem.options["ranks_per_run"]
-        self.ranks = ranks or max(1, processors() // per_run) * per_run
+        # A job has what it is given: the processors of whoever writes it are not the cluster's.
+        self.ranks = ranks or (per_run if jobs else max(1, processors() // per_run) * per_run)
         self.taken, self.begun, self._places, self._failed, self._tables = 0, 0, {}, {}, {}
         if self.ranks % per_run:
             raise InputError(f"ranks_per_run: {self.ranks} ranks cannot be shared out in groups of {per_run}")
@@ -150,12 +152,12 @@ class Runs:
         listing.write_text("".join(f"{folder.resolve()}\n" for folder in folders), encoding="utf-8")
         script = self.folder / "jobs.slurm"
         script.write_text(f"""#!/usr/bin/env bash
-# The runs of an analysis that are missing, a batch a job: sbatch {script}; afterwards the command of the analysis goes on.
+# The runs of an analysis that are missing, a batch a job: sbatch {shlex.quote(str(script))}; afterwards the command of the analysis goes on.
 #SBATCH --array=1-{len(folders)}
 #SBATCH --ntasks={self.ranks}
 set -euo pipefail
-batch="$(sed -n "${{SLURM_ARRAY_TASK_ID}}p" {listing.resolve()})"
-exec {shutil.which("lampblack") or executable()} sweep "$batch/study.yaml" --out "$batch" --ranks {self.ranks}
+batch="$(sed -n "${{SLURM_ARRAY_TASK_ID}}p" {shlex.quote(str(listing.resolve()))})"
+exec {shlex.quote(shutil.which("lampblack") or executable())} sweep "$batch/study.yaml" --out "$batch" --ranks {self.ranks}
 """, encoding="utf-8")
         raise JobsWritten(script, len(folders))
 
