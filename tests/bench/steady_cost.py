@@ -2,11 +2,11 @@
 """What an iteration towards a steady state costs: processor time, iterations of the linear solvers and memory over the number of
 cells, of species and of ranks.
 
-Usage: steady_cost.py PROGRAM FOLDER [--cells F...] [--ranks N...] [--mechanisms NAME...]
+Usage: steady_cost.py PROGRAM FOLDER [--cells F...] [--ranks N...] [--mechanisms NAME...] [--steps N] [--iterations FEW MANY]
 
 A counterflow flame on a mesh of 750 cells times each of the refinements --cells, with DRM19; and the mechanisms on the mesh of
-refinement 1.15. Each is run twice, 20 steps in time and 5, then 25 iterations from there (which end with exit code 3), and the
-difference counts: what the steps and the set-up take is not in it. Processor time is that of all ranks, user mode, children of
+refinement 1.15. Each is run twice, --steps (20) in time and 5, then 25 iterations from there (--iterations; they end with exit code
+3), and the difference counts: what the steps and the set-up take is not in it. Processor time is that of all ranks, user mode, children of
 mpirun included; ranks that wait for each other take some too, so that those of several ranks mean nothing on a busy machine.
 """
 
@@ -21,7 +21,6 @@ import subprocess
 MECHANISMS = pathlib.Path(__file__).resolve().parents[2] / "cases/mechanisms"
 SIZES = {"hydrogen_h2o2_10": (10, "H2: 0.5, N2: 0.5"), "methane_drm19_21": (21, "CH4: 1"), "ethylene_bisetti2012_47": (47, "C2H4: 1"),
          "methane_gri30_53": (53, "CH4: 1"), "ethylene_abf2000_101": (101, "C2H4: 1")}
-FEW, MANY = 5, 25  # iterations
 
 DECK = """problem: flow
 mechanism: {mechanism}
@@ -39,16 +38,16 @@ boundaries:
   axis: {{type: symmetry, side: r-min}}
   outflow: {{type: outlet, side: r-max, temperature: 298 K, composition: "N2: 1"}}
 initial: {{low: fuel, high: air, position: 5 mm, width: 2.5 mm}}
-time: {{mode: steady, steady: {{steps: 20, returns: 0, iterations: {iterations}, residual: 1e-15}}}}
+time: {{mode: steady, steady: {{steps: {steps}, returns: 0, attempts: 0, coarser_meshes: 0, iterations: {iterations}, residual: 1e-15}}}}
 """
 
 
-def measure(program, folder, mechanism, refinement, iterations, ranks):
+def measure(program, folder, mechanism, refinement, steps, iterations, ranks):
     """user time (s), largest memory of a rank (MiB), iterations of GMRES, cells."""
     name = f"{mechanism}_{refinement}_{iterations}_{ranks}"
     deck = folder / f"{name}.yaml"
     deck.write_text(DECK.format(mechanism=MECHANISMS / f"{mechanism}.yaml", refinement=refinement, fuel=SIZES[mechanism][1],
-                                iterations=iterations), encoding="utf-8")
+                                steps=steps, iterations=iterations), encoding="utf-8")
     command = [program, "run", str(deck), "--out", str(folder / name), "--force"]
     environment = dict(os.environ, PETSC_OPTIONS=f"-log_view :{folder / name}.petsc")
     if ranks > 1:
@@ -68,11 +67,11 @@ def measure(program, folder, mechanism, refinement, iterations, ranks):
 
 def row(options, mechanism, refinement, ranks):
     """Prints a row; the number of cells, species, and s an iteration."""
-    few, many = (measure(options.program, options.folder, mechanism, refinement, iterations, ranks)
-                 for iterations in (FEW, MANY))
-    steps = MANY - FEW
-    seconds, cells, species = (many[0] - few[0]) / steps, many[3], SIZES[mechanism][0]
-    print(f"| {species} | {cells} | {ranks} | {seconds:.3f} | {1e6 * seconds / cells:.0f} | {(many[2] - few[2]) / steps:.1f} | "
+    few, many = (measure(options.program, options.folder, mechanism, refinement, options.steps, iterations, ranks)
+                 for iterations in options.iterations)
+    counted = options.iterations[1] - options.iterations[0]
+    seconds, cells, species = (many[0] - few[0]) / counted, many[3], SIZES[mechanism][0]
+    print(f"| {species} | {cells} | {ranks} | {seconds:.3f} | {1e6 * seconds / cells:.0f} | {(many[2] - few[2]) / counted:.1f} | "
           f"{many[1]:.0f} |", flush=True)
     return cells, species, seconds
 
@@ -91,6 +90,8 @@ def main() -> None:
     parser.add_argument("--cells", type=float, nargs="*", default=[1.15, 2.3, 4.6])
     parser.add_argument("--ranks", type=int, nargs="*", default=[1, 2])
     parser.add_argument("--mechanisms", nargs="*", default=list(SIZES))
+    parser.add_argument("--steps", type=int, default=20)
+    parser.add_argument("--iterations", type=int, nargs=2, default=[5, 25])
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     print("| species | cells | ranks | s an iteration | us a cell | GMRES iterations | MiB a rank |")

@@ -15,7 +15,8 @@ import re
 import subprocess
 
 MECHANISMS = pathlib.Path(__file__).resolve().parents[2] / "cases/mechanisms"
-M = {"H2": "hydrogen_h2o2_10", "H2 San Diego": "hydrogen_sandiego_9", "CH4": "methane_drm19_21", "C2H4": "ethylene_bisetti2012_47"}
+M = {"H2": "hydrogen_h2o2_10", "H2 San Diego": "hydrogen_sandiego_9", "CH4": "methane_drm19_21", "C2H4": "ethylene_bisetti2012_47",
+     "C3H8": "methane_gri30_53"}
 AIR = "O2: 0.21, N2: 0.79"
 
 def axisymmetric_burner(name, mechanism, pressure, gravity, r, z, solids, fuel, walls, air_from, ua, air, top, ring, width, more=""):
@@ -152,6 +153,9 @@ FLAMES = dict([
     burner("29_inverse_methane", "CH4", AIR, 5, 0.5, 0.1, 0.1,
            "{to: 5 mm, cells: 9}, {to: 5.5 mm, cells: 1}, {to: 10 mm, cells: 8}, {to: 20 mm, cells: 6, ratio: 3}",
            "{to: 12 mm, cells: 18}, {to: 60 mm, cells: 24, ratio: 4}", radiation=False, air="CH4: 0.5, N2: 0.5"),
+    # GRI-Mech 3.0 knows how propane comes apart, but was made for methane.
+    coflow("30_coflow_propane", "C3H8", uf=0.03, ua=0.1),
+    counterflow("31_counterflow_propane", "C3H8", u=0.2),
 ])
 
 
