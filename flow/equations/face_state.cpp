@@ -35,14 +35,6 @@ double behindFeed(double cell, double fed, double extrapolated) {
   return cell + (std::abs(byFeed) < std::abs(bySlope) ? byFeed : bySlope);
 }
 
-// What the value at a face's centre differs by from that where the step meets the face. Between cells with opposite
-// sides the slope along the offset is whole: across thin layers around a bend it is many times that along them, and a
-// share of it by a limiter that looks along them would turn at a crest of theirs from none to all of it within a
-// thousandth of the amount.
-double offsetRise(const Mesh& m, int face, double value, double up, double gradient, double slope, const Upwind& at) {
-  return m.betweenOpposite[face] != 0 ? slope : limitedOffset(value, up, gradient, slope, at);
-}
-
 }  // namespace
 
 FaceState::FaceState(const FlowContext& context, const State& state)
@@ -185,7 +177,7 @@ void FaceState::massFractions(int face, double direction, std::span<double> row)
     const double* smallest = YBounds_.smallest(u.up);
     const double* largest = YBounds_.largest(u.up);
     for (int k = 0; k < n; ++k)
-      row[k] = boundedFaceValue(row[k] + offsetRise(m, face, row[k], up[k], slope_[k], offsetSlope_[k], u), up[k],
+      row[k] = boundedFaceValue(row[k] + limitedOffset(row[k], up[k], slope_[k], offsetSlope_[k], u), up[k],
                                 smallest[k], largest[k]);
   }
   double sum = 0.0;
@@ -245,7 +237,7 @@ double FaceState::limited(const Upwind& u, int face, std::span<const double> val
   const double slope = slopeAlong(u.direction, ofUp, m.dimension);
   const double value = limitedFaceValue(up, values[u.down * components + component], slope, u);
   if (!m.isSkewed()) return value;
-  const double wanted = value + offsetRise(m, face, value, up, slope, slopeAlong(m.offset[face], ofUp, m.dimension), u);
+  const double wanted = value + limitedOffset(value, up, slope, slopeAlong(m.offset[face], ofUp, m.dimension), u);
   return boundedFaceValue(wanted, up, bounds.smallest(u.up)[component], bounds.largest(u.up)[component]);
 }
 

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include "flow/discretisation/velocity_gradient.hpp"
-#include "flow/equations/face_state.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
 
@@ -92,40 +91,6 @@ TEST(BentCells, SlopesAcrossLayersAreThoseBetweenThem) {
     EXPECT_NEAR((gradient[at(2 * c)] * outwards[0] + gradient[at(2 * c + 1)] * outwards[1]) * layers / 20, 1.0, 2e-3);
     EXPECT_NEAR((gradient[at(2 * c)] * outwards[1] - gradient[at(2 * c + 1)] * outwards[0]) * layers / 20, 0.0, 2e-3);
   }
-}
-
-// What lies at the faces of a crest along a layer changes as much as the crest does, however steep the layers are
-// beside that: else iterations swing there.
-TEST(BentCells, FacesOfACrestFollowIt) {
-  constexpr double perLayer = 20.0, perCell = 0.01, step = 1e-4;  // K
-  constexpr int along = 20, crest = 10 * along + 10;
-  Box box = ringOfLayers(along);
-  const Mesh& m = box.mesh;
-  const auto air = box.gas.massFractions("O2: 0.21, N2: 0.79");
-  State state = box.state([&](const Vector3&) { return Box::Local{{0.0, 0.0}, 300.0, air}; });
-  FaceState faces(box.context, state);
-  std::vector<double> row(air.size()), before;
-  double most = 0.0;
-  for (double above = -2.0 * perCell; above < 2.0 * perCell; above += step) {
-    for (int c = 0; c < m.cells; ++c) {
-      const auto number = static_cast<int>(m.naturalCell[at(c)]);
-      state.temperature[at(c)] =
-          300.0 + perLayer * (number / along) + perCell * std::min(number % along, crest % along);
-      if (number == crest) state.temperature[at(c)] += above;
-    }
-    faces.prepare(state, state.Y);
-    std::vector<double> now;
-    for (const double direction : {1.0, -1.0})
-      for (int face = 0; face < m.interiorFaces; ++face) {
-        faces.interpolate(state, face, direction, row);
-        now.push_back(faces.temperature[at(face)]);
-      }
-    for (std::size_t i = 0; i < before.size(); ++i) most = std::max(most, std::abs(now[i] - before[i]) / step);
-    before = std::move(now);
-  }
-  report(fmt::format("values at faces change {:.3g} times as much as the crest", maxOverRanks(most)));
-  EXPECT_GT(maxOverRanks(most), 0.5);
-  EXPECT_LT(maxOverRanks(most), 4.0);
 }
 
 // A square's values are met on any cells within reach, as far as the gradients are those at the centres.
