@@ -75,6 +75,8 @@ class CellParticles {
     // kg of each element that came and went with numerical particles: zero in the mean.
     std::vector<double> resampled;
   };
+  // Of the next populations: StochasticPopulation::setRoom().
+  void setRoom(std::size_t particles) { population_->setRoom(particles); }
   // A packed population over dt (s), to which particles have come (rows without a head). NumericsError.
   Change advance(std::span<const double> population, std::span<const double> arrived, const ParticleGas& gas,
                  double dt);

@@ -103,13 +103,14 @@ EnsembleOperator::Packed EnsembleOperator::pack(const State& state, int cell, Ro
   rows.add(concentrations_);
   rows.add(openPopulation(cell));
   rows.add(arrived_[cell]);
-  return {gas, static_cast<double>(arrived_[cell].size())};
+  return {gas, static_cast<double>(arrived_[cell].size()), rooms_.empty() ? 0.0 : rooms_[cell]};
 }
 
 EnsembleOperator::Result EnsembleOperator::solve(double dt, const SharedCellWork::Task<Packed>& task, RowWriter rows) {
   const std::size_t species = particles_->species().size();
   const std::span<const double> particles = task.rows.subspan(species);
   const auto arrived = static_cast<std::size_t>(task.input.arrived);
+  if (task.input.room > 0.0) particles_->setRoom(static_cast<std::size_t>(task.input.room));
   const CellParticles::Change change =
       particles_->advance(particles.first(particles.size() - arrived), particles.last(arrived),
                           {task.input.gas, task.rows.first(species)}, dt);
@@ -156,6 +157,7 @@ void EnsembleOperator::advance(State& state, double time, double dt) {
       resampled_ = startResampled_;
     }
   }
+  if (!inStep_) findRooms(state);
   inStep_ = hasMoved_ = true;
   work_.beginStep();
   lastStep_ = dt;

@@ -51,6 +51,10 @@ class EnsembleOperator : public Operator {
     bool diffusion = true;
     bool secondOrder = true;
     bool shareWork = true;
+    // Most numerical particles of a cell, where there is most soot and where there is next to none: in between the
+    // first times the root of the cell's share of the largest number or volume per volume of any cell, the larger of
+    // the two. Zero: as many everywhere as the population has.
+    std::size_t particles = 0, particlesAtEdges = 0;
     int sweeps = 1;          // of a step
     std::uint64_t seed = 1;  // of transport
     SizeBins bins;           // of size distributions
@@ -133,11 +137,14 @@ class EnsembleOperator : public Operator {
   struct Packed {
     CarrierGas gas;
     double arrived;  // how many values
+    double room;     // for numerical particles; zero: as it is
   };
   // And how it comes back: behind it what CellParticles::Change has, and the population.
   struct Result {
     double cost;
   };
+  // Collective. Of the cells, by what they have.
+  void findRooms(const State& state);
   Packed pack(const State& state, int cell, RowWriter rows);
   Result solve(double dt, const SharedCellWork::Task<Packed>& task, RowWriter rows);
   void take(State& state, int cell, bool isHeld, std::span<const double> rows);
@@ -170,6 +177,7 @@ class EnsembleOperator : public Operator {
   GasExchange exchange_;
   SharedCellWork work_;
   std::vector<std::vector<double>> populations_, arrived_;
+  std::vector<double> rooms_;    // for numerical particles, of each cell; empty: as the population has it
   std::vector<double> waiting_;  // how many of the last values of a population have arrived since it was advanced
   std::vector<double> reserve_;  // of the owned cells
   std::vector<double> rate_;     // what the balance has of it, per s

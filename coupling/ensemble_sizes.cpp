@@ -1,10 +1,8 @@
 #include "coupling/ensemble_sizes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/order_free_sums.hpp"
-#include "particles/population/monte_carlo/weighted_deviation.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -13,25 +11,6 @@ namespace {
 const SizeBins primaryBins{0.0, 8.0, 64};
 
 }  // namespace
-
-// By the cube of the diameter, which needs no root.
-void addSizes(const RowSizes& of, const SizeBins& bins, std::span<const double> population, std::span<double> density) {
-  const double perVolume = of.type.perVolume(), perBin = 1.0 / bins.width();
-  of.rows.forEach(of.rows.of(population), [&](const double* row) {
-    const double primaries = of.type.coalescing() ? 1.0 : row[2];
-    const double factor = SootAggregate::mobilityFactor(primaries);
-    const double cube = perVolume * massAt(row) / primaries * (factor * factor * factor);
-    const std::size_t bin = bins.ofLog(std::log10(cube) / 3.0);
-    if (bin < bins.count) density[bin] += row[packedNumberAt] * perBin;
-  });
-}
-
-double geometricDeviation(const RowSizes& of, std::span<const double> population) {
-  WeightedDeviation deviation;
-  of.rows.forEach(of.rows.of(population),
-                  [&](const double* row) { deviation.add(std::log(of.mobilityDiameter(row)), row[packedNumberAt]); });
-  return deviation.geometric();
-}
 
 std::vector<Quantity> regionSizeColumns() {
   return {{"diameter_low", "m", "mobility diameter, the lower edge of the bin"},

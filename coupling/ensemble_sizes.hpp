@@ -1,6 +1,5 @@
-// Sizes of the particles of packed ensembles (particles/stochastic/particle_rows.hpp): of one cell, and of all cells in
-// a box, one distribution by mobility diameter and one by the primaries' diameter and number, from which mass and
-// surface follow.
+// Sizes of the particles of packed ensembles (particles/stochastic/row_sizes.hpp) of all cells in a box: one
+// distribution by mobility diameter and one by the primaries' diameter and number, from which mass and surface follow.
 #pragma once
 
 #include <span>
@@ -13,11 +12,6 @@
 #include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::coupling {
-
-// Adds dN/dlog10(d) (1/m3) by mobility diameter, as Ensemble::sizeDistribution().
-void addSizes(const RowSizes& of, const SizeBins& bins, std::span<const double> population, std::span<double> density);
-// Of the mobility diameter by number; 1 where there are no particles.
-[[nodiscard]] double geometricDeviation(const RowSizes& of, std::span<const double> population);
 
 // Rows of tables of a region, the same on all ranks and to the last bit on any number of them, from the populations of
 // the owned cells: a row a bin of the mobility diameter. Collective.

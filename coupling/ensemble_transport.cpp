@@ -1,34 +1,19 @@
 #include "coupling/ensemble_transport.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
-#include "core/errors.hpp"
-#include "core/first_error.hpp"
-#include "core/random.hpp"
 #include "core/rank_exchange.hpp"
 #include "coupling/ensemble_transport_sides.hpp"
 #include "flow/properties/wall_transfer.hpp"
 #include "particles/collisions/sphere.hpp"
 
 namespace lampblack::coupling {
-namespace {
-
-constexpr std::uint32_t movesStream = 0x4d4f5645;  // and the parts of both halves of a step behind it
-constexpr int mostParts = 600;                     // of a half
-
-// Of a cell in a part. Diffusion is explicit in time: of first order in this.
-constexpr double mostLeaving = 0.3;
-
-}  // namespace
-
 EnsembleTransport::EnsembleTransport(const FlowContext& context, Options options)
     : context_(context),
       options_(std::move(options)),
+      perDensity_(1.0 / options_.type.density()),
       gradient_(context.mesh),
       known_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope),
       density_(static_cast<std::size_t>(context.mesh.cells) * classes),
@@ -94,15 +79,8 @@ const double* EnsembleTransport::diffusivityOf(const Gas& gas, int cell) {
   return row;
 }
 
-// Collective. Of the classes, with their gradients.
-void EnsembleTransport::findDensities(const Gas& gas, double part) {
+void EnsembleTransport::findBoundaries(const Gas& gas) {
   const Mesh& m = context_.mesh;
-  for (int cell = 0; cell < m.owned; ++cell) {
-    double* of = &density_[static_cast<std::size_t>(cell) * classes];
-    const double perMass = m.volume[cell] / massOf(gas, cell, part);
-    for (int k = 0; k < classes; ++k) of[k] = contents_[cell].numbers[k] * perMass;
-  }
-  context_.halo.update(density_, classes);
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const BoundaryKind kind = context_.boundaryOf(face).kind;
     const bool isOpen = kind == BoundaryKind::Inlet || kind == BoundaryKind::Outlet;
@@ -112,15 +90,30 @@ void EnsembleTransport::findDensities(const Gas& gas, double part) {
                                      : gas.state.massFlux[face] < 0.0 ? BoundaryData::Value
                                                                       : BoundaryData::Nothing;
   }
-  gradient_.compute(density_, nothing_, classes, gradients_, known_);
+}
+
+// Collective. Of the classes that move, with their gradients.
+void EnsembleTransport::findDensities(const Gas& gas, double part) {
+  const Mesh& m = context_.mesh;
+  const std::size_t width = moving_.size();
+  const std::span<double> density(density_.data(), width * static_cast<std::size_t>(m.cells));
+  const std::span<double> gradients(gradients_.data(), density.size() * static_cast<std::size_t>(m.dimension));
+  for (int cell = 0; cell < m.owned; ++cell) {
+    double* of = &density[static_cast<std::size_t>(cell) * width];
+    const double perMass = m.volume[cell] / massOf(gas, cell, part);
+    for (std::size_t k = 0; k < width; ++k) of[k] = contents_[cell].numbers[moving_[k]] * perMass;
+  }
+  const auto components = static_cast<int>(width);
+  context_.halo.update(density, components);
+  gradient_.compute(density, nothing_, components, gradients, known_);
   if (m.isOblique() && (options_.diffusion || !gas.state.eddyViscosity.empty()))
-    context_.halo.update(gradients_, classes * m.dimension);
+    context_.halo.update(gradients, components * m.dimension);
 }
 
 // Through the layer beside a wall; `share`: s/kg, of the cell's mass in a part of a step.
 void EnsembleTransport::findWallDiffusion(const Gas& gas, int cell, double share, Side& side) {
   const double* here = diffusivityOf(gas, cell);
-  for (std::size_t node = 0; node < nodes; ++node) {
+  for (std::size_t node = firstNode_; node < endNode_; ++node) {
     const double perSquare = nodes_[node].perSquare;
     side.diffusion[node] = share / perSquare *
                            conductanceToWall(context_, gas.state, gas.properties, side.face, gas.faceDensity[side.face],
@@ -130,8 +123,10 @@ void EnsembleTransport::findWallDiffusion(const Gas& gas, int cell, double share
 
 void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides) {
   const Mesh& m = context_.mesh;
-  const double* present = &density_[static_cast<std::size_t>(cell) * classes];
-  const double* slopes = &gradients_[static_cast<std::size_t>(cell * classes * m.dimension)];
+  const std::size_t width = moving_.size();
+  const double* present = &density_[static_cast<std::size_t>(cell) * width];
+  const double* slopes = &gradients_[static_cast<std::size_t>(cell) * width * static_cast<std::size_t>(m.dimension)];
+  const double* velocity = &gas.state.velocity[static_cast<std::size_t>(cell) * m.dimension];
   sides.clear();
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
     const int face = m.faceOfCell[i];
@@ -147,14 +142,14 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
     side.isWall = side.beyond < 0 && context_.takesParticles(face);
     side.drift = out;
     if (side.isWall) side.eddies = eddiesToWall(context_, gas.state, gas.properties, face).resistance * mass / dt;
-    Vector3 from = difference(m.faceCentreOf(cell, face), m.centre[cell]);
-    for (int axis = 0; axis < m.dimension; ++axis)
-      from[axis] -= 0.5 * dt * gas.state.velocity[static_cast<std::size_t>(cell) * m.dimension + axis];
-    for (int k = 0; k < classes; ++k) {
+    const Vector3 toFace = difference(m.faceCentreOf(cell, face), m.centre[cell]);
+    for (std::size_t j = 0; j < width; ++j) {
+      const int k = moving_[j];
       double ratio = 1.0;
-      if (options_.secondOrder && (side.beyond >= 0 || side.isWall) && present[k] > 0.0) {
+      if (options_.secondOrder && (side.beyond >= 0 || side.isWall) && present[j] > 0.0) {
+        const double behind = 0.5 * dt * lengths_[k];
         for (int axis = 0; axis < m.dimension; ++axis)
-          ratio += slopes[k * m.dimension + axis] * from[axis] / present[k];
+          ratio += slopes[j * m.dimension + axis] * (toFace[axis] - behind * velocity[axis]) / present[j];
         side.isLimited[k] = ratio < 0.0 || ratio > 2.0;
         ratio = std::clamp(ratio, 0.0, 2.0);
       }
@@ -167,16 +162,19 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
         const double through = dt / mass * gas.faceDensity[face] * m.area[face] / m.distance[face];
         const double own = isLow ? m.lowWeight[face] : 1.0 - m.lowWeight[face];
         const double *here = diffusivityOf(gas, cell), *there = diffusivityOf(gas, side.beyond);
-        for (std::size_t node = 0; node < nodes; ++node)
+        for (std::size_t node = firstNode_; node < endNode_; ++node)
           side.diffusion[node] = through * (own * here[node] + (1.0 - own) * there[node]);
       }
       side.diffused.fill(1.0);
       if (m.isOblique())
-        for (int k = 0; k < classes; ++k) {
-          if (!(present[k] > 0.0)) continue;
+        for (std::size_t j = 0; j < width; ++j) {
+          const int k = moving_[j];
+          if (!(present[j] > 0.0)) continue;
           // Half of it is taken from what goes each way.
           const double skew =
-              0.5 * m.distance[face] * faceSlope(m, face, m.oblique[face], gradients_, classes, k) / present[k];
+              0.5 * m.distance[face] *
+              faceSlope(m, face, m.oblique[face], gradients_, static_cast<int>(width), static_cast<int>(j)) /
+              present[j];
           side.isLimited[k] = side.isLimited[k] || std::abs(skew) > 1.0;
           side.diffused[k] = std::clamp(1.0 - (isLow ? skew : -skew), 0.0, 2.0);
         }
@@ -209,7 +207,7 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
     const auto face =
         std::find_if(m.faceOfCell.begin() + m.faceStart[cell], m.faceOfCell.begin() + m.faceStart[cell + 1],
                      [&](int f) { return m.faceNumber[f] == static_cast<std::int64_t>(letter[0]); });
-    leaving_.push_back({*face, cell, leavingRows_.size()});
+    leaving_.push_back({*face, cell, classOf(volumeOf(letter + 2)), leavingRows_.size()});
     leavingRows_.insert(leavingRows_.end(), letter + 2, letter + length);
     letter += length;
   }
@@ -233,79 +231,13 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
           to.insert(to.end(), row, row + length);
           const double number = row[packedNumberAt] / m.volume[cell];
           to[to.size() - length + packedNumberAt] = number;
-          contents_[cell].add(classOf(massAt(row) / options_.type.density()), number, 1);
+          contents_[cell].add(leaving_[k].ofClass, number, 1);
         }
         chain = {-1, -1};
       }
     }
   leaving_.clear();
   leavingRows_.clear();
-}
-
-// Collective. So many that what would leave a cell in one by the values in it is no more than mostLeaving of it.
-int EnsembleTransport::findParts(const Gas& gas, double dt) {
-  const Mesh& m = context_.mesh;
-  double most = 0.0;
-  for (int cell = 0; cell < m.owned; ++cell) {
-    if (contents_[cell].count == 0) continue;
-    const double volume = contents_[cell].lightest / options_.type.density();
-    const Between at = between(volume, smallest, nodes);
-    double out = 0.0;
-    for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
-      const int face = m.faceOfCell[i];
-      if (m.area[face] <= 0.0) continue;
-      out += std::max(outflow(gas, face, cell), 0.0) + stirredThrough(gas, face);
-      if (!diffuses(face)) continue;
-      const double* D = diffusivityOf(gas, cell) + at.node;
-      const double ofVolume = (D[0] + at.part * (D[1] - D[0])) / std::pow(sphereDiameter(volume), 2);
-      out += m.high[face] >= 0
-                 ? gas.faceDensity[face] * m.area[face] / m.distance[face] * ofVolume
-                 : conductanceToWall(context_, gas.state, gas.properties, face, gas.faceDensity[face], ofVolume);
-    }
-    most = std::max(most, dt * out / std::min(massOf(gas, cell, 0.0), massOf(gas, cell, 1.0)));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, m.comm);
-  if (!(most <= mostParts * mostLeaving))
-    raiseTogether(m.comm, NumericsError(fmt::format("in a step of {:.3g} s particles move through {:.3g} cells; a "
-                                                    "smaller 'time.maximum_step' helps",
-                                                    dt, most)));
-  return std::max(1, static_cast<int>(std::ceil(most / mostLeaving)));
-}
-
-void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, Half half,
-                                std::vector<Rows>& populations, std::vector<Rows>& arrived) {
-  const Mesh& m = context_.mesh;
-  const bool isFirst = half == Half::First;
-  if (isFirst) {
-    gone_.clear();
-    goneThrough_.clear();
-    limited_ = 0;
-    parts_ = 0;
-  }
-  std::ranges::fill(isFound_, 0);  // the ensembles between the halves have changed the gas
-  order_.clear();
-  for (int cell = 0; cell < m.owned; ++cell) takeStock(cell, options_.rows.of(populations[cell]), arrived[cell]);
-  const int parts = findParts(gas, 0.5 * dt);
-  parts_ += parts;
-  std::vector<Side> sides;
-  for (int part = 0; part < parts; ++part) {
-    const double begun = 0.5 * ((isFirst ? 0.0 : 1.0) + static_cast<double>(part) / parts);
-    findDensities(gas, begun);
-    for (int cell = 0; cell < m.owned; ++cell) {
-      if (contents_[cell].count == 0) continue;
-      findSides(gas, cell, 0.5 * dt / parts, massOf(gas, cell, begun), sides);
-      RandomStream random(options_.seed, static_cast<std::uint64_t>(m.naturalCell[cell]),
-                          movesStream + static_cast<std::uint32_t>((isFirst ? 0 : mostParts) + part));
-      random.seek(2 * step);
-      drawLeaving(cell, sides, random, populations[cell], arrived[cell]);
-    }
-    send(arrived);
-  }
-  for (int cell = 0; cell < m.owned; ++cell) {
-    if (!contents_[cell].hasLost) continue;
-    removeGone(populations[cell], options_.rows.head);
-    removeGone(arrived[cell], 0);
-  }
 }
 
 }  // namespace lampblack::coupling

@@ -16,6 +16,10 @@
 // slopes would bias what is noisy. o corrects diffusion where the step from cell to cell is oblique to the face. Like
 // sizes: volumes within a factor of eight.
 //
+// Half a step is taken in parts where more would leave a cell than may. Each class of like sizes goes by as many as it
+// needs: light particles in all of them, heavy ones, which diffuse less, in some, over several together. What a class
+// does depends on itself alone.
+//
 // Who goes is drawn by two random numbers of the cell and part of the step: results do not depend on ranks. Particles
 // of a cell are put in order of size once in a half of a step; in each part the teeth of a comb, as far from one
 // another as no probability of that size is above, hit those that are looked at, and evenly spread points
@@ -76,7 +80,8 @@ class EnsembleTransport {
   // and the face of each.
   [[nodiscard]] const Rows& gone() const { return gone_; }
   [[nodiscard]] const std::vector<int>& goneThrough() const { return goneThrough_; }
-  // In how many parts the halves of the last step were taken, so that no cell gives more than it has: two at least.
+  // In how many parts the halves of the last step were taken for those that need most, so that no cell gives more than
+  // it has: two at least.
   [[nodiscard]] int parts() const { return parts_; }
   // How many numerical particles of this rank's cells moved in the last step, once a part, with a probability that was
   // limited: r, o or the sum over all faces.
@@ -100,8 +105,10 @@ class EnsembleTransport {
   struct Hit;
 
   [[nodiscard]] static int classOf(double volume);
+  [[nodiscard]] double volumeOf(const double* row) const { return massAt(row) * perDensity_; }
   const double* diffusivityOf(const Gas& gas, int cell);
   void takeStock(int cell, std::span<const double> population, std::span<const double> arrived);
+  void findBoundaries(const Gas& gas);
   void findDensities(const Gas& gas, double part);
   void findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides);
   void findWallDiffusion(const Gas& gas, int cell, double share, Side& side);
@@ -111,23 +118,30 @@ class EnsembleTransport {
   // kg/s of gas, that eddies exchange through a face.
   [[nodiscard]] double stirredThrough(const Gas& gas, int face) const;
   [[nodiscard]] double massOf(const Gas& gas, int cell, double part) const;
-  [[nodiscard]] static Size sizeOf(double volume, double d, double primaries);
+  [[nodiscard]] Size sizeOf(double volume, double d, double primaries) const;
   [[nodiscard]] double sumChances(const Size& size, const std::vector<Side>& sides, SideValues& upTo) const;
   void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const;
   void drawLeaving(int cell, const std::vector<Side>& sides, RandomStream& random, Rows& population, Rows& arrived);
   void drawPieces(Draw& draw, double* row);
   void measureHits(const Rows& population, const Rows& arrived);
   void drawHits(Draw& draw, double* row, const Size& size, std::span<const Hit> hits);
-  void leave(Draw& draw, double* row, std::span<const double> pieces, double of);
+  void leave(Draw& draw, double* row, int ofClass, const SideValues& pieces, double of);
   void removeGone(Rows& rows, std::size_t head) const;
   void send(std::vector<Rows>& arrived);
   [[nodiscard]] int findParts(const Gas& gas, double dt);
+  void beginPart(int part, int parts);
+  [[nodiscard]] bool hasMoving(int cell) const;
 
   const FlowContext& context_;
   Options options_;
+  double perDensity_;  // of the particles, m3/kg
   Gradient gradient_;
   std::vector<BoundaryData> known_;          // of the particles at each boundary face
-  std::vector<double> density_, gradients_;  // numbers of each class per mass of gas, 1/kg
+  std::array<int, classes> together_{};      // parts that each class takes at once; zero: it does not move
+  std::array<double, classes> lengths_{};    // of the present part: so many of them, or zero
+  std::vector<int> moving_;                  // classes that move in it
+  std::size_t firstNode_ = 0, endNode_ = 0;  // those that their chances depend on
+  std::vector<double> density_, gradients_;  // numbers of each class that moves per mass of gas, 1/kg
   std::vector<double> nothing_;              // at the boundary
   std::vector<double> diffusivity_;          // of local cells: D d^2 at the nodes, m4/s
   std::vector<char> isFound_;                // whether it is that of this half of the step

@@ -33,14 +33,15 @@ void EnsembleTransport::takeStock(int cell, std::span<const double> population, 
   content = {};
   content.order = order_.size();
   content.before = arrived.size();
-  content.lightest = std::numeric_limits<double>::infinity();
+  content.lightest.fill(std::numeric_limits<double>::infinity());
   const std::array<std::span<const double>, 2> both{population, arrived};
   stock_.clear();
   for (const std::span<const double> rows : both)
     options_.rows.forEach(rows, [&](const double* row) {
-      const double mass = massAt(row), number = row[packedNumberAt], volume = mass / options_.type.density();
-      content.lightest = std::min(content.lightest, mass);
-      content.add(classOf(volume), number, 1);
+      const double mass = massAt(row), number = row[packedNumberAt], volume = volumeOf(row);
+      const int k = classOf(volume);
+      content.lightest[k] = std::min(content.lightest[k], mass);
+      content.add(k, number, 1);
       const int node = exponentOf(volume) - smallest;
       stock_.push_back(
           {number, node >= 0 && node < static_cast<int>(nodes) ? static_cast<std::uint32_t>(node) : singles, 1});
@@ -69,10 +70,10 @@ void EnsembleTransport::takeStock(int cell, std::span<const double> population, 
 }
 
 // What the chances to leave of a particle depend on, `d` being the diameter (m) of the sphere of its volume (m3).
-EnsembleTransport::Size EnsembleTransport::sizeOf(double volume, double d, double primaries) {
+EnsembleTransport::Size EnsembleTransport::sizeOf(double volume, double d, double primaries) const {
   Size size{classOf(volume), {}, 0.0};
   double ofMobility = volume;
-  if (primaries > 1.0) {
+  if (primaries > 1.0 && !options_.type.coalescing()) {
     d *= SootAggregate::mobilityFactor(primaries) / std::cbrt(primaries);
     ofMobility = constants::pi / 6.0 * d * d * d;
   }
@@ -88,16 +89,17 @@ double EnsembleTransport::sumChances(const Size& size, const std::vector<Side>& 
     for (std::size_t s = 0; s < sides.size(); ++s)
       if (sides[s].isWall) upTo[s] = sides[s].toWall(size.ofClass, size.at, size.perSquare);
   double sum = 0.0;
-  for (std::size_t s = 0; s < sides.size(); ++s) upTo[s] = sum += upTo[s];
+  for (std::size_t s = 0; s < sides.size(); ++s) upTo[s] = sum += lengths_[size.ofClass] * upTo[s];
   return sum;
 }
 
 // Of spheres between a node and the next, and of aggregates of that volume, which diffuse less: no sum of chances to
-// leave is above this. D falls with the volume, D d^2 rises.
+// leave is above this, which is zero for those that do not move. D falls with the volume, D d^2 rises.
 void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const {
   std::ranges::fill(bounds, 0.0);
   for (std::size_t node = 0; node < nodes; ++node) {
     const auto [diameter, perSquare, k] = nodes_[node];
+    if (lengths_[k] == 0.0) continue;
     for (const Side& side : sides) {
       if (side.isWall) {
         bounds[node] += side.mostToWall(k, node, perSquare);
@@ -106,6 +108,7 @@ void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<d
       const double most = std::max(side.diffusion[node], side.diffusion[std::min(node + 1, nodes - 1)]);
       bounds[node] += side.convected[k] + side.diffused[k] * (side.stirred + perSquare * most);
     }
+    bounds[node] *= lengths_[k];
   }
 }
 
@@ -125,7 +128,7 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
   if (sides.empty()) return;
   Content& content = contents_[cell];
   Draw draw{cell, sides, content, {}, {}, content.whole(), random.uniform()};
-  lanes_->set(sides);
+  lanes_->set(sides, moving_, firstNode_, endNode_);
   for (const Side& side : sides)
     for (std::size_t k = 0; k < draw.isLimited.size(); ++k) draw.isLimited[k] = draw.isLimited[k] || side.isLimited[k];
   for (std::size_t k = 0; k < draw.isLimited.size(); ++k)
@@ -156,20 +159,17 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
     double* row = rowAt(place);
     drawHits(draw, row, sizeOf(volumes_[hit], diameters_[hit], row[2]), std::span(hits_).subspan(hit, next - hit));
   }
-  for (; first < content.order + content.upTo[nodes]; ++first)
-    if (double* row = rowAt(order_[first]); row[packedNumberAt] > 0.0) drawPieces(draw, row);
-  for (std::size_t i = content.before; i < end; i += options_.rows.lengthOf(&arrived[i]))
-    if (arrived[i + packedNumberAt] > 0.0) drawPieces(draw, &arrived[i]);
+  for (; first < content.order + content.upTo[nodes]; ++first) drawPieces(draw, rowAt(order_[first]));
+  for (std::size_t i = content.before; i < end; i += options_.rows.lengthOf(&arrived[i])) drawPieces(draw, &arrived[i]);
 }
 
 // Of those that are hit: volumes, and the diameters of spheres of these (nodes have no others than normal numbers).
 void EnsembleTransport::measureHits(const Rows& population, const Rows& arrived) {
-  const double density = options_.type.density();
   volumes_.resize(hits_.size());
   diameters_.resize(hits_.size());
   for (std::size_t k = 0; k < hits_.size(); ++k) {
     const std::uint32_t place = order_[hits_[k].entry];
-    volumes_[k] = massAt(&((place & 1U) != 0 ? arrived : population)[place >> 1U]) / density;
+    volumes_[k] = volumeOf(&((place & 1U) != 0 ? arrived : population)[place >> 1U]);
   }
   for (std::size_t k = 0; k < hits_.size(); ++k) diameters_[k] = normalCubeRoot(6 * volumes_[k] / constants::pi);
 }
@@ -194,14 +194,16 @@ void EnsembleTransport::drawHits(Draw& draw, double* row, const Size& size, std:
   const std::uint32_t place = order_[first];
   while (first > begin && order_[first - 1] == place) --first;
   while (last < end && order_[last] == place) ++last;
-  leave(draw, row, leaving, static_cast<double>(last - first));
+  leave(draw, row, size.ofClass, leaving, static_cast<double>(last - first));
   std::fill_n(order_.begin() + static_cast<std::ptrdiff_t>(last - gone), gone, Content::nowhere);
 }
 
 // One of any size that may stand for any number. Most stay, which their bound tells.
 void EnsembleTransport::drawPieces(Draw& draw, double* row) {
+  const double volume = volumeOf(row);
+  if (!(row[packedNumberAt] > 0.0) || lengths_[classOf(volume)] == 0.0) return;
   const double pieces = piecesIn(row[packedNumberAt], draw.whole);
-  const int node = exponentOf(massAt(row) / options_.type.density()) - smallest;
+  const int node = exponentOf(volume) - smallest;
   if (pieces == 1.0 && node >= 0 && node < static_cast<int>(nodes)) {
     double drawn = draw.point;
     nextEvenPoint(drawn);
@@ -211,7 +213,6 @@ void EnsembleTransport::drawPieces(Draw& draw, double* row) {
     }
   }
   SideValues upTo, leaving{};
-  const double volume = massAt(row) / options_.type.density();
   const Size size = sizeOf(volume, sphereDiameter(volume), row[2]);
   const double sum = sumChances(size, draw.sides, upTo);
   if (sum > 1.0 && !draw.isLimited[size.ofClass]) ++limited_;
@@ -223,11 +224,11 @@ void EnsembleTransport::drawPieces(Draw& draw, double* row) {
     leaving[sideAt(drawn, std::span(upTo).first(draw.sides.size()))] += 1.0;
     isLeaving = true;
   }
-  if (isLeaving) leave(draw, row, leaving, pieces);
+  if (isLeaving) leave(draw, row, size.ofClass, leaving, pieces);
 }
 
 // So many of its pieces go through each side.
-void EnsembleTransport::leave(Draw& draw, double* row, std::span<const double> pieces, double of) {
+void EnsembleTransport::leave(Draw& draw, double* row, int ofClass, const SideValues& pieces, double of) {
   const std::size_t length = options_.rows.lengthOf(row);
   const double number = row[packedNumberAt], inCell = number * context_.mesh.volume[draw.cell];
   double stay = of;
@@ -237,7 +238,7 @@ void EnsembleTransport::leave(Draw& draw, double* row, std::span<const double> p
     const Side& side = draw.sides[s];
     Rows& to = side.beyond < 0 ? gone_ : leavingRows_;
     if (side.beyond >= 0)
-      leaving_.push_back({side.face, side.beyond, to.size()});
+      leaving_.push_back({side.face, side.beyond, ofClass, to.size()});
     else
       goneThrough_.push_back(side.face);
     to.insert(to.end(), row, row + length);
@@ -245,7 +246,7 @@ void EnsembleTransport::leave(Draw& draw, double* row, std::span<const double> p
   }
   row[packedNumberAt] = stay > 0.0 ? number * stay / of : 0.0;
   draw.content.hasLost = draw.content.hasLost || !(stay > 0.0);
-  draw.content.add(classOf(massAt(row) / options_.type.density()), row[packedNumberAt] - number, stay > 0.0 ? 0 : -1);
+  draw.content.add(ofClass, row[packedNumberAt] - number, stay > 0.0 ? 0 : -1);
 }
 
 // Takes out the rows that have the number zero.

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "core/modules.hpp"
 #include "coupling/ensemble_transport.hpp"
@@ -44,7 +45,8 @@ inline int EnsembleTransport::classOf(double volume) {
   return std::clamp((exponentOf(volume) - smallest) / 3, 0, classes - 1);
 }
 
-// One of a cell's faces, as its particles see it, in one part of a step.
+// One of a cell's faces, as its particles see it, in one part of a step. A class that takes several parts together has
+// so many times these probabilities.
 struct EnsembleTransport::Side {
   int face = 0, beyond = -1;                // the cell on the other side, or -1
   std::array<double, classes> convected{};  // probability to go with the gas
@@ -82,14 +84,17 @@ struct EnsembleTransport::SideLanes {
   Lanes stirred{};
   bool hasWall = false;
 
-  void set(const std::vector<Side>& sides) {
+  // Of these classes and nodes.
+  void set(const std::vector<Side>& sides, std::span<const int> moving, std::size_t first, std::size_t end) {
     hasWall = std::ranges::any_of(sides, &Side::isWall);
     for (std::size_t s = 0; s < sides.size(); ++s) {
       const Side& side = sides[s];
-      for (std::size_t k = 0; k < classes; ++k) convected[k][s] = side.convected[k];
-      for (std::size_t k = 0; k < classes; ++k) diffused[k][s] = side.diffused[k];
+      for (const int k : moving) {
+        convected[k][s] = side.convected[k];
+        diffused[k][s] = side.diffused[k];
+      }
       stirred[s] = side.stirred;
-      for (std::size_t node = 0; node < nodes; ++node) diffusion[node][s] = side.diffusion[node];
+      for (std::size_t node = first; node < end; ++node) diffusion[node][s] = side.diffusion[node];
     }
   }
   // The probability to leave through each of them.
@@ -115,8 +120,8 @@ struct EnsembleTransport::Content {
   std::int64_t count = 0;
   std::array<double, classes> numbers{};  // 1/m3, of each class
   std::array<int, classes> counts{};
-  double lightest = 0.0;  // kg, at the begin
-  bool hasLost = false;   // whether a row has the number zero
+  std::array<double, classes> lightest{};  // kg, at the begin
+  bool hasLost = false;                    // whether a row has the number zero
 
   static constexpr std::uint32_t nowhere = ~0U;
   [[nodiscard]] static std::uint32_t placeOf(std::size_t at, bool hasArrived) {
@@ -146,8 +151,9 @@ struct EnsembleTransport::Hit {
 };
 
 struct EnsembleTransport::Leaving {
-  int face = 0;         // local
-  int cell = 0;         // local, where it comes to
+  int face = 0;  // local
+  int cell = 0;  // local, where it comes to
+  int ofClass = 0;
   std::size_t row = 0;  // in leavingRows_, the number per metre depth or radian
   int next = -1;        // that comes through the face to the same side
 };

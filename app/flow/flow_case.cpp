@@ -205,6 +205,15 @@ EnsembleStatistics::Options readStatistics(const Deck& deck, FlowCase& flowCase)
   return options;
 }
 
+void readRooms(const Deck& deck, FlowCase& flowCase, EnsembleOperator::Options& options) {
+  const std::string key = "particles.number_at_edges";
+  options.particles = deck.integer<std::size_t>("particles.number");
+  options.particlesAtEdges = deck.integer<std::size_t>(key);
+  if (options.particlesAtEdges > options.particles) throw deck.error(key, "no more than 'particles.number'");
+  if (!deck.has("particles.method") || deck.choice("particles.method") != "pairs")
+    flowCase.notes.push_back(key + ": only particles.method pairs has it, here all cells have 'particles.number'");
+}
+
 void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   EnsembleOperator::Options options;
   const PopulationRequest request = readCellPopulation(deck, flowCase.mechanism, flowCase.seed);
@@ -224,6 +233,7 @@ void readEnsembles(const Deck& deck, FlowCase& flowCase) {
   options.secondOrder = deck.choice("particles.order") == "second";
   options.shareWork = flowCase.chemistry.shareWork;
   options.sweeps = deck.integer<int>("time.sweeps");
+  if (deck.has("particles.number_at_edges")) readRooms(deck, flowCase, options);
   if (deck.has("particles.statistics")) options.statistics = readStatistics(deck, flowCase);
   flowCase.ensembles = options;
 }

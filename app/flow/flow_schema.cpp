@@ -217,6 +217,15 @@ void addParticles(DeckSchema& schema) {
                .formerly("least_number")
                .byDefault("1e12 1/m^3")
                .above(0))
+      .add(
+          integerKey("particles.number_at_edges",
+                     "Largest number of numerical particles of a cell with next to no particles, by method pairs; "
+                     "others have 'particles.number' in all cells. A cell in which the number or the volume fraction "
+                     "is as large as in any has 'particles.number', one in between that times the root of its share of "
+                     "the largest, by the larger of the two. Saves time where few particles are. Absent: "
+                     "'particles.number' in all cells.")
+              .optional()
+              .atLeast(8))
       .add(numberKey("particles.bundled_growth",
                      "Growth in bundles, of method sammc: share of its volume that a particle may gain from small "
                      "particles in one event. Bundles save most events where new particles are many. Number and mass "

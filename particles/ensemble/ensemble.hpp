@@ -83,6 +83,8 @@ class Ensemble {
   // room, and for what is not positive.
   virtual void initialise(std::span<const GivenParticle> population) = 0;
 
+  // Most numerical particles from now on: eight at least, `particles` at most. Method pairs only, others keep these.
+  virtual void setRoom(std::size_t particles) = 0;
   // Over dt (s) in the given gas; `dilution` (1/s) is the divergence of the particles' velocity. Throws NumericsError
   // for a gas that is not physical.
   virtual void advance(const ParticleGas& gas, double dilution, double dt) = 0;
@@ -118,9 +120,6 @@ class Ensemble {
   [[nodiscard]] virtual Totals totals() const = 0;
   // Sum over particles of volume^order per m3.
   [[nodiscard]] virtual double moment(double order) const = 0;
-  // dN/dlog10(d) (1/m3) in `bins` equal bins of log10(d/m), by mobility diameter (that of the sphere with one primary);
-  // particles outside are left out.
-  [[nodiscard]] virtual std::vector<double> sizeDistribution(double logMin, double logMax, std::size_t bins) const = 0;
   [[nodiscard]] virtual double geometricDeviation() const = 0;  // of the mobility diameter by number; 1 when empty
   [[nodiscard]] virtual const PopulationCounters& counters() const = 0;
   [[nodiscard]] virtual const EnsembleOptions& options() const = 0;

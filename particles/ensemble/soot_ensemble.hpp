@@ -25,6 +25,7 @@ class SootEnsemble final : public StochasticPopulation {
 
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
+  void setRoom(std::size_t particles) override { ensemble_->setRoom(particles); }
   void advance(const ParticleGas& gas, double dt) override { ensemble_->advance(gas, 0, dt); }
   // Diluted within its splitting steps.
   void advanceDiverging(const ParticleGas& gas, double divergence, double dt) override {
@@ -52,9 +53,6 @@ class SootEnsemble final : public StochasticPopulation {
   [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override;
   [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
   [[nodiscard]] std::vector<ParticleFunctional> functionals() const override;
-  [[nodiscard]] std::vector<double> distribution(std::size_t, const SizeBins& bins) const override {
-    return ensemble_->sizeDistribution(bins.logMin, bins.logMax, bins.count);
-  }
   [[nodiscard]] double functional(std::size_t, const double* row) const override {
     return sizes().mobilityDiameter(row);
   }

@@ -41,6 +41,9 @@ class StochasticProcess final : public Ensemble {
         random_(random) {}
 
   void initialise(std::span<const GivenParticle> population) override;
+  void setRoom(std::size_t particles) override {
+    if constexpr (drawsPairs) method_.setCapacity(room_ = std::clamp(particles, leastRoom, options_.particles));
+  }
   void advance(const ParticleGas& gas, double dilution, double dt) override;
   void dilute(double factor) override;
   [[nodiscard]] std::vector<GivenParticle> particles() const override;
@@ -54,7 +57,6 @@ class StochasticProcess final : public Ensemble {
   [[nodiscard]] std::size_t size() const override { return method_.size(); }
   [[nodiscard]] Totals totals() const override;
   [[nodiscard]] double moment(double order) const override;
-  [[nodiscard]] std::vector<double> sizeDistribution(double logMin, double logMax, std::size_t bins) const override;
   [[nodiscard]] double geometricDeviation() const override;
   [[nodiscard]] const PopulationCounters& counters() const override { return const_cast<Method&>(method_).counters(); }
   [[nodiscard]] const EnsembleOptions& options() const override { return options_; }
@@ -102,6 +104,7 @@ class StochasticProcess final : public Ensemble {
   };
 
   static constexpr int birthsOfJump = 4;
+  static constexpr std::size_t leastRoom = 8;
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
   // Whether a method collides its particles over a time, and not event by event.
   static constexpr bool drawsPairs = requires(Method method, RandomStream& random) { method.coagulate(1.0, random); };
@@ -112,6 +115,7 @@ class StochasticProcess final : public Ensemble {
   using PackedEntry = std::conditional_t<weighted, typename Method::Entry, Particle>;
 
   EnsembleOptions options_;
+  std::size_t room_ = options_.particles;  // for numerical particles
   SootAggregate type_;
   DimerModel dimers_;
   Method method_;
@@ -218,7 +222,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     inception = sootInception(law(), medium, start, dt);
     if constexpr (weighted) {
       // A new particle for each numerical one as the number of real ones renews itself, and not too many a step.
-      const double n = static_cast<double>(options_.particles);
+      const double n = static_cast<double>(room_);
       method_.setNucleus(nucleus,
                          std::max({start.number, 20 * inception * stepLength, options_.leastNumberDensity}) / n);
     } else {
@@ -226,7 +230,7 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
       if (size() == 0 && inception > 0) {
         // Without particles any number will do for a numerical one to stand for: that at which those born now fill half
         // of the sample. What there was of the interval goes with its particles.
-        const double n = static_cast<double>(options_.particles);
+        const double n = static_cast<double>(room_);
         method_.startAfresh(std::max(options_.startNumberDensity, 2 * inception * dt) / n);
         births_.startAfresh();
       }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <numbers>
 #include <tuple>
 
 #include "core/modules.hpp"
@@ -12,7 +11,6 @@
 #include "particles/population/monte_carlo/systematic_sample.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 #include "particles/population/monte_carlo/weighted_particle.hpp"
-#include "particles/stochastic/size_bins.hpp"
 
 namespace lampblack::particles {
 
@@ -184,19 +182,6 @@ void StochasticProcess<Method>::forEachLogDiameter(F f) const {
     if (++n == atATime) flush();
   });
   if (n > 0) flush();
-}
-
-template <class Method>
-std::vector<double> StochasticProcess<Method>::sizeDistribution(double logMin, double logMax, std::size_t bins) const {
-  std::vector<double> density(bins, 0);
-  const SizeBins all{logMin, logMax, bins};
-  const double width = all.width();
-  forEachLogDiameter([&](const double* logs, const double* weights, std::size_t n) {
-    for (std::size_t k = 0; k < n; ++k)
-      if (const std::size_t bin = all.ofLog(std::numbers::log10e * logs[k]); bin < bins)
-        density[bin] += weights[k] / width;
-  });
-  return density;
 }
 
 template <class Method>

@@ -60,6 +60,8 @@ class StochasticPopulation {
   // Whether there can be inception in this gas.
   [[nodiscard]] virtual bool hasPrecursors(const ParticleGas& gas) const = 0;
 
+  // Most numerical particles from now on, not more than it was made for. Kinds that cannot change it leave it as it is.
+  virtual void setRoom(std::size_t /*particles*/) {}
   // Over dt (s). NumericsError.
   virtual void advance(const ParticleGas& gas, double dt) = 0;
   // The same where the particles' velocity diverges (1/s): diluted for half of it, advanced, diluted for the other half

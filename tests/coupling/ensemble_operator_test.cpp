@@ -180,6 +180,8 @@ class MethodsInCells : public testing::TestWithParam<EnsembleMethod> {
   [[nodiscard]] static SootOptions optionsOf(Exchange exchange, double average = 0.0) {
     SootOptions o = sootOptions(exchange, average);
     o.ensemble.method = GetParam();
+    o.particles = o.ensemble.particles;
+    if (GetParam() == EnsembleMethod::pairs) o.particlesAtEdges = 15;
     return o;
   }
 };
@@ -200,6 +202,40 @@ TEST_P(MethodsInCells, DoNotDependOnRanksNorSharing) {
     particles += packedParticles(population).size();
   }
   EXPECT_GT(sumOverRanks(static_cast<double>(particles)), 200.0);
+}
+
+// At rest: a cell has no more than the root of its share of the largest number or volume says, and the richest all.
+TEST(EnsembleOperator, HasFewerParticlesWhereThereIsLess) {
+  SootOptions o = sootOptions(Exchange::OneWay);
+  o.ensemble.method = EnsembleMethod::pairs;
+  o.diffusion = false;
+  o.particles = o.ensemble.particles = 80;
+  o.particlesAtEdges = 20;
+  Vessel v(o);
+  for (int s = 0; s < 14; ++s) v.step(false);
+  const std::size_t n = v.state.scalars.size();
+  const auto amount = [&](int c, CellSoot::Amount which) { return v.state.carried[at(c) * n + which]; };
+  double number = 0.0, mass = 0.0, fewest = 1e9, most = 0.0;
+  for (int c = 0; c < v.box.mesh.owned; ++c) {
+    number = std::max(number, amount(c, CellSoot::number));
+    mass = std::max(mass, amount(c, CellSoot::carbon) + amount(c, CellSoot::hydrogen));
+  }
+  number = maxOverRanks(number);
+  mass = maxOverRanks(mass);
+  std::vector<double> rooms;
+  for (int c = 0; c < v.box.mesh.owned; ++c) {
+    const double ofMass = (amount(c, CellSoot::carbon) + amount(c, CellSoot::hydrogen)) / mass;
+    rooms.push_back(std::max(20.0, 80.0 * std::sqrt(std::max(amount(c, CellSoot::number) / number, ofMass))));
+  }
+  v.step(false);
+  for (int c = 0; c < v.box.mesh.owned; ++c) {
+    const auto count = static_cast<double>(packedParticles(v.ensembles.populations()[at(c)]).size());
+    EXPECT_LE(count, rooms[at(c)]) << c;
+    fewest = std::min(fewest, count);
+    most = std::max(most, count);
+  }
+  EXPECT_LE(-maxOverRanks(-fewest), 30.0);
+  EXPECT_GT(maxOverRanks(most), 60.0);
 }
 
 // What a step that failed goes back to, and a restart: the same bits.

@@ -6,10 +6,12 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "core/constants.hpp"
 #include "particles/collisions/collision_physics.hpp"
 #include "particles/collisions/sphere.hpp"
+#include "tests/coupling/mean_of_repeats.hpp"
 #include "tests/coupling/moving_particles.hpp"
 #include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"
@@ -18,86 +20,13 @@
 namespace lampblack::test {
 namespace {
 
+using moving::fieldAfter;
 using moving::hill;
 using moving::massOf;
+using moving::MeanOfRepeats;
 using moving::Moving;
 using moving::sootDensity;
 using moving::vortex;
-
-// The mean of a cell's moment after some steps against the same scheme for a field without particles: what a particle
-// does depends on its class alone, so that the means of a class obey linear equations, of which those of repeats are a
-// sample.
-class MeanOfRepeats {
- public:
-  void add(const std::vector<double>& values) {
-    for (std::size_t k = 0; k < values.size(); ++k) all_[k].push_back(values[k]);
-  }
-  // The largest |z| of all values against the expected ones, over all ranks, and their mean square.
-  struct Score {
-    double largest, square;
-  };
-  [[nodiscard]] Score against(const std::vector<double>& expected) const {
-    double largest = 0.0, squares = 0.0, count = 0.0;
-    for (const auto& [k, values] : all_) {
-      const Sample sample = summarise(values);
-      if (!(sample.standardError > 1e-9 * std::abs(sample.mean))) continue;
-      const double z = (sample.mean - expected[k]) / sample.standardError;
-      largest = std::max(largest, std::abs(z));
-      squares += z * z;
-      count += 1.0;
-    }
-    return {maxOverRanks(largest), sumOverRanks(squares) / sumOverRanks(count)};
-  }
-
- private:
-  std::map<std::size_t, std::vector<double>> all_;
-};
-
-// A field without particles by the linear scheme on a uniform box, in which the ratio of face value to cell value is
-// kept between 0 and 2: upwind values in the middle of each half of a step, central differences, explicit diffusion.
-std::vector<double> fieldAfter(const Moving& m, std::vector<double> field, double step, double diffusivity, int steps) {
-  const double dt = 0.5 * step;
-  const Mesh& mesh = m.box.mesh;
-  std::vector<double> slope(at(mesh.cells) * 2), boundary(at(mesh.boundaryFaces()));
-  const bool take = m.box.context.boundaries[0].takesParticles;
-  const std::vector<BoundaryData> known(boundary.size(), take ? BoundaryData::Nothing : BoundaryData::ZeroSlope);
-  const Gradient gradient(mesh);
-  HaloExchange halo(mesh);
-  for (int half = 0; half < 2 * steps; ++half) {
-    halo.update(field, 1);
-    gradient.compute(field, boundary, 1, slope, known);
-    halo.update(slope, 2);
-    std::vector<double> next = field;
-    for (int face = 0; face < (take ? mesh.faces : mesh.interiorFaces); ++face) {
-      const int low = mesh.low[at(face)], high = mesh.high[at(face)];
-      const double flux = (m.state.massFlux[at(face)] + 0.55 * m.drift[at(face)]) / m.state.density[0];
-      const int up = flux > 0.0 || high < 0 ? low : high;
-      double value = field[at(up)];
-      for (int axis = 0; axis < 2; ++axis) {
-        const double from = mesh.faceCentre[at(face)][at(axis)] - mesh.centre[at(up)][at(axis)] -
-                            0.5 * dt * m.state.velocity[at(2 * up + axis)];
-        value += slope[at(2 * up + axis)] * from;
-      }
-      value = std::clamp(value, 0.0, 2.0 * field[at(up)]);
-      if (high < 0) {  // J = v c/(1 - e^-P), and coth(P/2) - 2/P of what c changes to the wall
-        const double P = flux / (diffusivity * mesh.area[at(face)] / mesh.distance[at(face)]);
-        const double outside = P > 0.0 ? 1.0 / std::tanh(0.5 * P) - 2.0 / P : 0.0;
-        const double all =
-            P == 0.0 ? diffusivity * mesh.area[at(face)] / mesh.distance[at(face)] : flux / (1.0 - std::exp(-P));
-        const double taken = all * field[at(low)] + flux * outside * (value - field[at(low)]);
-        next[at(low)] -= dt * taken / mesh.volume[at(low)];
-        continue;
-      }
-      const double moved = dt * (flux * value + diffusivity * mesh.area[at(face)] / mesh.distance[at(face)] *
-                                                    (field[at(low)] - field[at(high)]));
-      next[at(low)] -= moved / mesh.volume[at(low)];
-      next[at(high)] += moved / mesh.volume[at(high)];
-    }
-    field = std::move(next);
-  }
-  field.resize(at(mesh.owned));
-  return field;
-}
 
 struct Motion {
   std::string name;
@@ -147,33 +76,6 @@ TEST_P(MeanOfParticles, IsTheFiniteVolumeField) {
   report(
       fmt::format("{}: largest |z| {:.2f} of 64 cells, mean square {:.2f}", motion.name, score.largest, score.square));
   // Of 64 cells at 99.9 % together: each at 4.3 (t distribution of 99 degrees).
-  EXPECT_LT(score.largest, 4.5);
-  EXPECT_LT(score.square, 1.6);
-}
-
-// In parts of a half, of which each begins with what the one before left: the field in as many steps.
-TEST(EnsembleTransport, InPartsIsTheFiniteVolumeFieldInAsManySteps) {
-  constexpr int repeats = 100, parts = 3;
-  constexpr double dt = 2e-3;
-  MeanOfRepeats numbers;
-  std::vector<double> expected;
-  for (int r = 0; r < repeats; ++r) {
-    Moving m(8, vortex);
-    m.fill(40, hill, 0.0);
-    if (expected.empty()) {
-      std::vector<double> field(at(m.box.mesh.cells));
-      for (int c = 0; c < m.box.mesh.owned; ++c) field[at(c)] = m.moment(c, 0.0);
-      expected = fieldAfter(m, field, dt / parts, 0.0, parts);
-    }
-    EnsembleTransport transport = m.transport(false, 4000 + static_cast<std::uint64_t>(r));
-    m.step(transport, dt, 0);
-    ASSERT_EQ(transport.parts(), 2 * parts);
-    std::vector<double> values;
-    for (int c = 0; c < m.box.mesh.owned; ++c) values.push_back(m.moment(c, 0.0));
-    numbers.add(values);
-  }
-  const auto score = numbers.against(expected);
-  report(fmt::format("in parts: largest |z| {:.2f} of 64 cells, mean square {:.2f}", score.largest, score.square));
   EXPECT_LT(score.largest, 4.5);
   EXPECT_LT(score.square, 1.6);
 }
@@ -233,7 +135,7 @@ TEST(EnsembleTransport, DiffusesByTheDiameterOfMobility) {
       for (int k = 0; k < count; ++k)
         packDoubles(m.populations[at(c)], GivenParticle{primaries * massOf(d), 0.0, primaries, 1e10});
     }
-    EnsembleTransport transport = m.transport(true, 5);
+    EnsembleTransport transport(m.box.context, {{sootDensity, SootShape::aggregates}, 0.55, true, true, 5});
     transport.advance({m.state, m.drift, m.density, m.properties}, 2 * share * h * h / (4 * D), 0,
                       EnsembleTransport::Half::First, m.populations, m.arrived);
     EXPECT_EQ(transport.parts(), 1);
@@ -405,19 +307,6 @@ TEST(EnsembleTransport, DoesNotDependOnRanks) {
     const int same = alone.box.mesh.findOwned(together.box.mesh.naturalCell[at(c)]);
     EXPECT_EQ(together.populations[at(c)], alone.populations[at(same)]) << c;
   }
-}
-
-// Tiny particles diffuse across more than a cell in a step: it is taken in parts, and nothing becomes negative or lost.
-TEST(EnsembleTransport, TakesStepsThatAreTooLongInParts) {
-  Moving m(8, [](const Vector3&) { return Vector3{}; });
-  m.fill(50, hill);
-  EnsembleTransport transport = m.transport(true, 9);
-  const double before = m.total(0.0);
-  m.step(transport, 0.2, 0);
-  EXPECT_GT(transport.parts(), 2);
-  EXPECT_EQ(transport.limited(), 0);
-  EXPECT_NEAR(m.total(0.0) / before, 1.0, 1e-13);
-  EXPECT_THROW(m.step(transport, 50.0, 1), NumericsError);
 }
 
 // One cell full, its neighbours empty: lines through the values leave what can be at the faces, which is counted.

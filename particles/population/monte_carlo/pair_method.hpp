@@ -47,6 +47,8 @@ class PairMethod {
   }
   void setKernel(const CollisionKernelOptions& kernel) { population_.setKernel(kernel); }
   void rebuild() {}
+  // Most particles, of the next merging on.
+  void setCapacity(std::size_t particles) { capacity_ = particles; }
   void mergeExcess() {
     population_.forgetTerms();
     counters_.merges += merging_.makeRoom(capacity_, population_);

@@ -8,7 +8,9 @@
 #include "../statistics.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/models/two_equation/two_equation.hpp"
+#include "particles/stochastic/row_sizes.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {
@@ -263,11 +265,40 @@ TEST_P(StochasticJumps, DilutionThinsExponentially) {
 TEST(StochasticJumps, DistributionIntegratesToTheNumberDensity) {
   const auto soot = monodisperse(EnsembleMethod::dsmc, {.type = CollisionKernelType::freeMolecular}, 1, 2000);
   soot->advance(flame().state, 0, 0.005);
-  const auto density = soot->sizeDistribution(-9.5, -6.5, 60);
+  std::vector<double> density(60);
+  addSizes({sootAggregate(soot->options()), {packedHead, false}}, {-9.5, -6.5, 60}, soot->pack(), density);
   const double number = soot->totals().number;
   EXPECT_NEAR(std::accumulate(density.begin(), density.end(), 0.0) * 3.0 / 60 / number, 1, 1e-12);
   EXPECT_NEAR(soot->moment(1) / soot->volumeFraction(), 1, 1e-12);
   EXPECT_NEAR(soot->moment(0) / number, 1, 1e-12);
+}
+
+// A population made for more particles and given less room is one that was made for that.
+TEST(EnsembleRoom, IsThatOfAPopulationMadeForIt) {
+  const auto made = [](std::size_t particles) {
+    EnsembleOptions options;
+    options.method = EnsembleMethod::pairs;
+    options.particles = particles;
+    options.splitTolerance = 0.2;
+    options.soot = test::threePah();
+    return makeEnsemble(options);
+  };
+  const auto wide = made(400), small = made(60);
+  wide->setRoom(60);
+  for (Ensemble* soot : {wide.get(), small.get()})
+    for (int step = 0; step < 4; ++step) soot->advance(flame().state, 0, 5e-4);
+  EXPECT_GT(small->size(), 40U);
+  EXPECT_LE(small->size(), 60U);
+  ASSERT_EQ(wide->size(), small->size());
+  const auto ofWide = wide->particles(), ofSmall = small->particles();
+  for (std::size_t k = 0; k < ofWide.size(); ++k) {
+    EXPECT_EQ(ofWide[k].carbon, ofSmall[k].carbon);
+    EXPECT_EQ(ofWide[k].number, ofSmall[k].number);
+  }
+  wide->setRoom(1000);  // no more than it was made for
+  wide->advance(flame().state, 0, 2e-3);
+  EXPECT_GT(wide->size(), 60U);
+  EXPECT_LE(wide->size(), 400U);
 }
 
 }  // namespace
