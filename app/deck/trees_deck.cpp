@@ -14,6 +14,7 @@
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "io/request_limits.hpp"
+#include "particles/trees/tree_population.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -225,7 +226,7 @@ void warnOfMisses(const TreeOptions& options, const std::vector<TreeStart>& star
     modes.push_back(start.sizes.number > 0 ? start.sizes
                                            : InitialPopulation{InitialPopulation::Distribution::monodisperse,
                                                                start.number, material.volume(start.units)});
-  const auto population = makeTreePopulation(options);
+  const auto population = std::make_unique<TreePopulation>(options);
   population->fill(starts);
   std::array<double, 4> moments{};
   population->forEachTree([&](const Tree& tree, double weight) {

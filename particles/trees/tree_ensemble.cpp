@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/trees/packed_tree.hpp"
+#include "particles/trees/tree_population.hpp"
 #include "particles/trees/tree_shape.hpp"
 
 namespace lampblack::particles {
@@ -52,7 +53,7 @@ TreeEnsemble::TreeEnsemble(const Mechanism& mechanism, const TreeOptions& option
       options_(options),
       functionals_(options.material),
       events_(treeEvents(options.material)),
-      trees_(makeTreePopulation(options)),
+      trees_(std::make_unique<TreePopulation>(options)),
       before_(elements().size()),
       gained_(elements().size()) {
   for (const std::size_t k : species()) {
@@ -71,6 +72,40 @@ TreeEnsemble::TreeEnsemble(const Mechanism& mechanism, const TreeOptions& option
   }
   if (const SiteReactions* reactions = options_.material.sites()) requireAtoms(mechanism, *reactions);
   if (!start.empty()) trees_->fill(start);
+}
+
+TreeEnsemble::~TreeEnsemble() = default;
+
+void TreeEnsemble::advance(const ParticleGas& gas, double dt) {
+  trees_->advance(gas, dt);
+}
+
+void TreeEnsemble::applyDeferred() {
+  trees_->applyDeferred();
+}
+
+void TreeEnsemble::dilute(double factor) {
+  trees_->dilute(factor);
+}
+
+std::size_t TreeEnsemble::size() const {
+  return trees_->size();
+}
+
+std::uint64_t TreeEnsemble::removals() const {
+  return trees_->counters().removals;
+}
+
+double TreeEnsemble::cost() const {
+  return trees_->cost();
+}
+
+std::vector<double> TreeEnsemble::pack() const {
+  return trees_->pack();
+}
+
+std::vector<double> TreeEnsemble::primarySizes(const SizeBins& bins) const {
+  return trees_->primarySizes(bins);
 }
 
 // Atoms of units and of the gas's species are the same before and after each process.
@@ -188,16 +223,19 @@ void TreeEnsemble::join(std::span<const double> rows, double share) {
   trees_->join(rows, share);
 }
 
+struct TreeEnsemble::Saved final : State {
+  Saved(TreePopulation::State state, const TreeExchange& sum) : trees(std::move(state)), total(sum) {}
+  TreePopulation::State trees;
+  TreeExchange total;
+};
+
 std::unique_ptr<StochasticPopulation::State> TreeEnsemble::save() const {
-  auto saved = std::make_unique<Saved>();
-  saved->trees = trees_->save();
-  saved->total = total_;
-  return saved;
+  return std::make_unique<Saved>(trees_->save(), total_);
 }
 
 void TreeEnsemble::restore(const State& state) {
   const auto& saved = dynamic_cast<const Saved&>(state);
-  trees_->restore(*saved.trees);
+  trees_->restore(saved.trees);
   total_ = saved.total;
 }
 

@@ -14,15 +14,18 @@
 #include "core/modules.hpp"
 #include "particles/stochastic/stochastic_population.hpp"
 #include "particles/trees/tree_functionals.hpp"
-#include "particles/trees/tree_population.hpp"
+#include "particles/trees/tree_options.hpp"
 
 namespace lampblack::particles {
+
+class TreePopulation;
 
 class TreeEnsemble final : public StochasticPopulation {
  public:
   // InputError where the mechanism lacks a species or an element, where a process of a material with sites does
-  // not keep the atoms of these species, and as makeTreePopulation(). `start`: what is there from the beginning.
+  // not keep the atoms of these species, and as TreePopulation(). `start`: what is there from the beginning.
   TreeEnsemble(const Mechanism& mechanism, const TreeOptions& options, std::span<const TreeStart> start = {});
+  ~TreeEnsemble() override;
 
   [[nodiscard]] TreePopulation& trees() const { return *trees_; }
 
@@ -31,8 +34,8 @@ class TreeEnsemble final : public StochasticPopulation {
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override {
     return options_.material.hasPrecursors(gas);
   }
-  void advance(const ParticleGas& gas, double dt) override { trees_->advance(gas, dt); }
-  void applyDeferred() override { trees_->applyDeferred(); }
+  void advance(const ParticleGas& gas, double dt) override;
+  void applyDeferred() override;
   [[nodiscard]] std::size_t watchedSpecies() const override {
     return options_.material.soot() != nullptr ? std::size_t{SootSpecies::C2H2} : 0;
   }
@@ -42,12 +45,12 @@ class TreeEnsemble final : public StochasticPopulation {
   [[nodiscard]] std::vector<double> resampled() const override;
   // Of the precursor of a material with sites.
   [[nodiscard]] std::optional<double> rateOf(std::size_t i, const ParticleGas& gas) const override;
-  void dilute(double factor) override { trees_->dilute(factor); }
-  [[nodiscard]] std::size_t size() const override { return trees_->size(); }
-  [[nodiscard]] std::uint64_t removals() const override { return trees_->counters().removals; }
-  [[nodiscard]] double cost() const override { return trees_->cost(); }
+  void dilute(double factor) override;
+  [[nodiscard]] std::size_t size() const override;
+  [[nodiscard]] std::uint64_t removals() const override;
+  [[nodiscard]] double cost() const override;
   [[nodiscard]] double costPerParticle() const override { return 0.25; }
-  [[nodiscard]] std::vector<double> pack() const override { return trees_->pack(); }
+  [[nodiscard]] std::vector<double> pack() const override;
   void unpack(std::span<const double> state) override;
   [[nodiscard]] std::vector<double> content() override;
   void join(std::span<const double> rows, double share) override;
@@ -62,17 +65,12 @@ class TreeEnsemble final : public StochasticPopulation {
   [[nodiscard]] double functional(std::size_t which, const double* row) const override;
   void forEachRow(const std::function<void(const double* row)>& f) const override;
   [[nodiscard]] bool hasPrimarySizes() const override { return true; }
-  [[nodiscard]] std::vector<double> primarySizes(const SizeBins& bins) const override {
-    return trees_->primarySizes(bins.logMin, bins.logMax, bins.count);
-  }
+  [[nodiscard]] std::vector<double> primarySizes(const SizeBins& bins) const override;
   // Particles, their primaries, and the necks between these.
   [[nodiscard]] std::vector<Table> tables() const override;
 
  private:
-  struct Saved final : State {
-    std::unique_ptr<TreePopulation::State> trees;
-    TreeExchange total;
-  };
+  struct Saved;
   void requireAtoms(const Mechanism& mechanism, const SiteReactions& reactions) const;
   // kg/m3 of each element in so many units.
   void addElements(const TreeUnits& units, double number, std::span<double> elements) const;

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "particles/trees/tree_ensemble.hpp"
+#include "particles/trees/tree_population.hpp"
 #include "particles/trees/tree_shape.hpp"
 
 namespace lampblack::particles {

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "particles/gas/soot_gas.hpp"
-#include "particles/trees/tree_process.hpp"
+#include "particles/trees/tree_population.hpp"
 
 namespace lampblack::particles {
 
-TreeRates TreeProcess::rates(const ParticleGas& gas, std::size_t pairs) const {
+TreeRates TreePopulation::rates(const ParticleGas& gas, std::size_t pairs) const {
   requirePhysical(gas, "particles");
   CollisionKernelOptions options = options_.kernel;
   options.gas = gas;

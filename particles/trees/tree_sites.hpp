@@ -5,7 +5,7 @@
 #include "core/modules.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/trees/tree_growth.hpp"
-#include "particles/trees/tree_population.hpp"
+#include "particles/trees/tree_options.hpp"
 
 namespace lampblack::particles {
 

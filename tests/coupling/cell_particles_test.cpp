@@ -6,6 +6,7 @@
 #include "core/state_backup.hpp"
 #include "particles/models/element_enthalpies.hpp"
 #include "particles/trees/tree_ensemble.hpp"
+#include "particles/trees/tree_population.hpp"
 #include "tests/coupling/cell_vessel.hpp"
 #include "tests/effort.hpp"
 
@@ -190,7 +191,7 @@ TEST(TreesInCells, AreUpToDateAfterAStep) {
   for (int c = 0; c < v.box.mesh.owned; ++c) {
     const std::vector<double>& population = v.ensembles.populations()[at(c)];
     if (v.particles->rows().isEmpty(population)) continue;
-    const auto own = makeTreePopulation(slow);
+    const auto own = std::make_unique<TreePopulation>(slow);
     own->unpack(population);
     const double now = steps * CellVessel::dt;
     own->forEachTree([&](const Tree& tree, double) {

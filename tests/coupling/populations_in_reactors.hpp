@@ -8,6 +8,7 @@
 #include "coupling/reactor_population.hpp"
 #include "particles/ensemble/soot_ensemble.hpp"
 #include "particles/trees/tree_ensemble.hpp"
+#include "particles/trees/tree_population.hpp"
 #include "tests/every_module.hpp"
 
 namespace lampblack::test {

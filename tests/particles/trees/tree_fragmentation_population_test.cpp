@@ -26,7 +26,7 @@ double oxidationOf(const TreeOptions& options, const FlameGas& gas) {
 // Equal rows, as a population that is full or has room.
 std::unique_ptr<TreePopulation> rows(TreeOptions options, std::size_t primaries, std::size_t count, double number,
                                      bool isFull = true, const TreeUnits& each = unitsOfEach) {
-  auto trees = makeTreePopulation(options);
+  auto trees = std::make_unique<TreePopulation>(options);
   const PrimaryTrees type(options.material, options.size);
   const Tree row = chain(type, primaries, each);
   std::vector<double> packed;
@@ -94,7 +94,7 @@ TEST(FragmentationOfTrees, TheNumberOfAPopulationFollowsTheExactMean) {
       EXPECT_GT(trees->counters().fragmentations, 0U);
       // As short steps as the number asks for, growth and oxidation having none to speak of.
       EXPECT_GT(static_cast<double>(trees->counters().splitSteps), 0.9 * std::log(exact) / 0.05);
-      const auto other = makeTreePopulation(options);
+      const auto other = std::make_unique<TreePopulation>(options);
       other->unpack(trees->pack());
       EXPECT_EQ(other->counters().fragmentations, trees->counters().fragmentations);
       if (trees->counters().removals == 0) {
@@ -123,7 +123,7 @@ TEST(FragmentationOfTrees, LeavesAllAsItIsWhereNothingBreaks) {
     options.material.reactions = reactions;
     options.coagulation = true;
     options.particles = 256;
-    const auto trees = makeTreePopulation(options);
+    const auto trees = std::make_unique<TreePopulation>(options);
     for (int step = 0; step < 5; ++step) trees->advance(gas.state, 2e-4);
     EXPECT_GT(trees->totals().largest, 2U);
     return trees->pack();
@@ -134,7 +134,7 @@ TEST(FragmentationOfTrees, LeavesAllAsItIsWhereNothingBreaks) {
 }
 
 TEST(FragmentationOfTrees, RefusesWhatIsNoFactor) {
-  EXPECT_THROW((void)makeTreePopulation(breakingSoot(-1)), InputError);
+  EXPECT_THROW((void)std::make_unique<TreePopulation>(breakingSoot(-1)), InputError);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "particles/trees/tree_ensemble.hpp"
+#include "particles/trees/tree_population.hpp"
 #include "tests/every_module.hpp"
 #include "tests/particles/trees/tree_fixtures.hpp"
 #include "tests/source_folder.hpp"
@@ -207,13 +208,15 @@ TEST(TreeRates, InceptionWithoutEnhancementIsThatOfTheFreeMolecularKernel) {
   const double molecules = 1e-4 * constants::avogadro, m = options.material.sites()->moleculeMass,
                d = options.material.sites()->moleculeDiameter;
   const double k = 4 * std::sqrt(constants::pi * constants::boltzmann * 1173 / m) * d * d;
-  EXPECT_NEAR(makeTreePopulation(options)->rates(sample.gas(1e-4), 0).inceptions / (0.5 * k * molecules * molecules), 1,
-              1e-12);
+  EXPECT_NEAR(std::make_unique<TreePopulation>(options)->rates(sample.gas(1e-4), 0).inceptions /
+                  (0.5 * k * molecules * molecules),
+              1, 1e-12);
   // The transition kernel of molecules is the free-molecular one but for some thousandths.
   options.material.siteReactions().freeMolecularInception = false;
   options.kernel.enhancement = 1;
-  EXPECT_NEAR(makeTreePopulation(options)->rates(sample.gas(1e-4), 0).inceptions / (0.5 * k * molecules * molecules), 1,
-              0.02);
+  EXPECT_NEAR(std::make_unique<TreePopulation>(options)->rates(sample.gas(1e-4), 0).inceptions /
+                  (0.5 * k * molecules * molecules),
+              1, 0.02);
 }
 
 TEST(TreeRates, EventsOfTheSampleAreThoseOfTheGasByItsWeight) {

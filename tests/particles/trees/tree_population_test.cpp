@@ -30,7 +30,7 @@ TEST_P(BooksOfTrees, BookEveryUnit) {
   options.material = silica();
   options.particles = 4096;
   options.fullAt = 1e19;
-  const auto trees = makeTreePopulation(options);
+  const auto trees = std::make_unique<TreePopulation>(options);
   TreeExchange all;
   for (int i = 0; i < 40; ++i) {
     trees->advance(nitrogen.gas(), 5e-4);
@@ -57,7 +57,7 @@ TEST_P(BooksOfTrees, BookEveryUnit) {
 }
 
 std::unique_ptr<TreePopulation> populated(const Nitrogen& nitrogen, const TreeOptions& options) {
-  auto trees = makeTreePopulation(options);
+  auto trees = std::make_unique<TreePopulation>(options);
   for (int i = 0; i < 10; ++i) trees->advance(nitrogen.gas(), 2e-3);
   return trees;
 }
@@ -76,7 +76,7 @@ TEST_P(BooksOfTrees, ThatUnpackTheSameGoOnToTheSameBits) {
   TreeOptions options = small();
   options.shape = GetParam();
   const auto first = populated(nitrogen, options);
-  const auto second = makeTreePopulation(options);
+  const auto second = std::make_unique<TreePopulation>(options);
   second->unpack(first->pack());
   const std::vector<double> packed = first->pack(), again = second->pack();
   EXPECT_EQ(again.size(), packed.size());
@@ -84,7 +84,7 @@ TEST_P(BooksOfTrees, ThatUnpackTheSameGoOnToTheSameBits) {
   EXPECT_EQ(second->totals().units, first->totals().units);
   EXPECT_EQ(second->totals().surface, first->totals().surface);
   ASSERT_GT(first->totals().primaries, 1.1 * first->totals().number);
-  const auto third = makeTreePopulation(options);
+  const auto third = std::make_unique<TreePopulation>(options);
   third->unpack(first->pack());
   for (TreePopulation* trees : {second.get(), third.get()}) trees->advance(nitrogen.gas(), 2e-3);
   EXPECT_EQ(second->pack(), third->pack());
@@ -125,7 +125,7 @@ TEST(TreePopulation, TakesInThoseOfAnother) {
     TreeOptions options = small();
     options.owner = owner;
     options.fullAt = 0.8 * coming.number;
-    const auto trees = makeTreePopulation(options);
+    const auto trees = std::make_unique<TreePopulation>(options);
     trees->fill(options.material.sites()->nucleus, 0.5 * coming.number);
     const TreeTotals before = trees->totals();
     trees->join(rows, share);
@@ -154,7 +154,7 @@ TEST(TreePopulation, TakesInTreesThatHaveSinteredUntilNow) {
     std::vector<double> share;
     for (std::uint64_t owner = 1; owner <= 400; ++owner) {
       options.owner = owner;
-      const auto trees = makeTreePopulation(options);
+      const auto trees = std::make_unique<TreePopulation>(options);
       trees->advance(nitrogen.gas(), waited);
       trees->join(treeRows.of(packed), 1.0);
       const double joined = trees->totals().surface;
@@ -197,11 +197,11 @@ TEST(TreePopulation, AStepThatIsTakenBackLeavesNoTrace) {
   const auto saved = trees->save();
   const TreeTotals before = trees->totals();
   trees->advance(nitrogen.gas(), 2e-3);
-  const std::vector<double> once = (trees->restore(*saved), trees->pack());
+  const std::vector<double> once = (trees->restore(saved), trees->pack());
   EXPECT_EQ(trees->totals().units, before.units);
   trees->advance(nitrogen.gas(), 2e-3);
   const std::vector<double> then = trees->pack();
-  trees->restore(*saved);
+  trees->restore(saved);
   trees->advance(nitrogen.gas(), 2e-3);
   EXPECT_EQ(trees->pack(), then);
   EXPECT_NE(once, then);
@@ -267,7 +267,7 @@ TEST(TreePopulation, CollidesByTheKernelOfThePaper) {
 // Spheres of one composition in a distribution of sizes and others all alike: numbers, volumes and units of both.
 TEST(TreePopulation, BeginsWithDistributionsOfSizes) {
   const TreeOptions options = small();
-  const auto trees = makeTreePopulation(options);
+  const auto trees = std::make_unique<TreePopulation>(options);
   const TreeUnits dry{1, 2, 0}, wet{300, 500, 200};
   const auto volume = [&](const TreeUnits& units) { return options.material.volume(units); };
   const InitialPopulation wide{InitialPopulation::Distribution::lognormal, 3e15, 500 * volume(dry), 1.3};
@@ -299,14 +299,14 @@ TEST(TreePopulation, BeginsWithDistributionsOfSizes) {
 TEST(TreePopulation, WrongOptionsSayWhatIsWrong) {
   TreeOptions options = small();
   options.particles = 4;
-  EXPECT_THROW((void)makeTreePopulation(options), InputError);
+  EXPECT_THROW((void)std::make_unique<TreePopulation>(options), InputError);
   options = small();
   options.splitTolerance = 0;
-  EXPECT_THROW((void)makeTreePopulation(options), InputError);
+  EXPECT_THROW((void)std::make_unique<TreePopulation>(options), InputError);
   options = small();
   options.material.components[0].weight = -1;
-  EXPECT_THROW((void)makeTreePopulation(options), InputError);
-  const auto trees = makeTreePopulation(small());
+  EXPECT_THROW((void)std::make_unique<TreePopulation>(options), InputError);
+  const auto trees = std::make_unique<TreePopulation>(small());
   EXPECT_THROW(trees->fill({0, 0, 0}, 1e10), InputError);
   EXPECT_THROW(trees->fill({1, 1, -1}, 1e10), InputError);
 }

@@ -50,7 +50,7 @@ SootLaw ofTrees(TreeOptions options, const FlameGas& gas, double dt, int repeats
   SootLaw law;
   for (int r = 0; r < repeats; ++r) {
     options.owner = static_cast<std::uint64_t>(r);
-    const auto trees = makeTreePopulation(options);
+    const auto trees = std::make_unique<TreePopulation>(options);
     trees->advance(gas.state, dt);
     trees->applyDeferred();
     const TreeTotals t = trees->totals();
@@ -274,7 +274,7 @@ TEST(TreesOfSoot, BooksEveryAtom) {
     }
     options.particles = 4096;
     options.fullAt = 4e18;
-    const auto trees = makeTreePopulation(options);
+    const auto trees = std::make_unique<TreePopulation>(options);
     TreeExchange all;
     const auto follow = [&](const FlameGas& gas, double dt, int steps) {
       for (int i = 0; i < steps; ++i) {
@@ -340,14 +340,14 @@ TEST(TreesOfSoot, PartsGoOnAsParticles) {
         reactions.soot.oxidation = false;
         return reactions;
       }();
-      auto trees = makeTreePopulation(own);
+      auto trees = std::make_unique<TreePopulation>(own);
       trees->fill({2000, 100, 0}, 1e18);
       trees->advance(gas.state, 2e-3);
       return trees;
     }();
     const double before = grown->totals().number, primaries = grown->totals().primaries;
     ASSERT_GT(primaries, 3 * before);
-    const auto trees = makeTreePopulation(options);
+    const auto trees = std::make_unique<TreePopulation>(options);
     trees->unpack(grown->pack());
     (void)trees->takeExchange();
     double lost = 0, gained = 0, burnt = 0;
@@ -372,10 +372,11 @@ TEST(TreesOfSoot, PartsGoOnAsParticles) {
 
 TEST(TreesOfSoot, GoOnToTheSameBitsFromAPackedState) {
   const FlameGas gas(1700, 1e-3, 0.03, 1e-5, 0.08, 2e-4, 0.03, {2e-5, 3e-6, 2e-6});
-  const auto first = makeTreePopulation(sootTrees(threePah()));
+  const auto first = std::make_unique<TreePopulation>(sootTrees(threePah()));
   first->advance(gas.state, 1e-3);
   ASSERT_GT(first->totals().largest, 2U);
-  const auto second = makeTreePopulation(sootTrees(threePah())), third = makeTreePopulation(sootTrees(threePah()));
+  const auto second = std::make_unique<TreePopulation>(sootTrees(threePah())),
+             third = std::make_unique<TreePopulation>(sootTrees(threePah()));
   for (const auto& trees : {&second, &third}) {
     (*trees)->unpack(first->pack());
     (*trees)->advance(gas.state, 1e-4);

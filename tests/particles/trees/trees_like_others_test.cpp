@@ -55,7 +55,7 @@ Moments ofTrees(TreeOptions options, int repeats, const TreeUnits& units = spher
   nitrogen.concentrations.resize(options.material.species().size());
   for (int r = 0; r < repeats; ++r) {
     options.owner = static_cast<std::uint64_t>(r);
-    const auto trees = makeTreePopulation(options);
+    const auto trees = std::make_unique<TreePopulation>(options);
     trees->fill(units, start);
     trees->advance(nitrogen.gas(), until);
     const TreeTotals totals = trees->totals();
@@ -132,7 +132,7 @@ TEST_P(TreesLikeOthers, ThatCoalesceAreSpheresInLaw) {
   for (std::uint64_t r = 0; r < 40; ++r) {
     TreeOptions own = options;
     own.owner = r;
-    const auto population = makeTreePopulation(own);
+    const auto population = std::make_unique<TreePopulation>(own);
     population->fill(dry(options.material), start);
     population->advance(nitrogen.gas(), until);
     population->applyDeferred();

@@ -1,4 +1,4 @@
-#include "particles/trees/tree_process.hpp"
+#include "particles/trees/tree_population.hpp"
 
 #include <fmt/format.h>
 
@@ -23,13 +23,43 @@ std::variant<TreeSites, TreeSoot> reactionsOf(const PrimaryTrees& type) {
   return TreeSites(type);
 }
 
+const TreeOptions& checkedTrees(const TreeOptions& options) {
+  requireMaterial(options.material);
+  if (options.shape == TreeShape::surfaceVolume && options.material.sites() == nullptr)
+    throw InputError("particles: only materials with sites are there by volume and surface");
+  if (options.particles < 8) throw InputError("particles: at least 8 numerical particles are needed");
+  if (!(options.splitTolerance > 0) || !(options.splitTolerance <= 1) || !(options.fullAt > 0))
+    throw InputError(
+        "particles: the split tolerance needs to be in (0, 1], the number density of a full sample positive");
+  if (!(options.sinteringTolerance >= 0) || !(options.sinteringTolerance <= 0.1))
+    throw InputError("particles: the tolerance of sintering needs to be in [0, 0.1]");
+  return options;
+}
+
+PopulationModel modelOfTrees(const TreeOptions& options) {
+  PopulationModel model;
+  if (options.coagulation) {
+    model.coagulation = options.kernel;  // of some gas, until there is the right one
+    model.coagulation->gas = {1500, constants::oneAtmosphere, 0.2, 5e-5, 0.028};
+  }
+  return model;
+}
+
+MonteCarloOptions monteCarloOfTrees(const TreeOptions& options) {
+  MonteCarloOptions monteCarlo;
+  monteCarlo.method = MonteCarloMethod::dsmc;
+  monteCarlo.particles = options.particles;
+  monteCarlo.expectedNumber = options.fullAt;
+  return monteCarlo;
+}
+
 }  // namespace
 
-TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& model, const MonteCarloOptions& monteCarlo)
-    : options_(options),
+TreePopulation::TreePopulation(const TreeOptions& options)
+    : options_(checkedTrees(options)),
       type_(options.material, options.size, options.shape),
       random_(options.seed, options.owner, treeStream),
-      method_(type_, model, InitialPopulation{}, monteCarlo, random_),
+      method_(type_, modelOfTrees(options), InitialPopulation{}, monteCarloOfTrees(options), random_),
       sintering_(type_, options.sinteringTolerance),
       reactions_(reactionsOf(type_)) {
   type_.setSintering([this](Tree& tree, double time) {
@@ -39,14 +69,14 @@ TreeProcess::TreeProcess(const TreeOptions& options, const PopulationModel& mode
   });
 }
 
-void TreeProcess::record(const TreeSintering::Changes& changes) {
+void TreePopulation::record(const TreeSintering::Changes& changes) {
   std::visit([&](auto& reactions) { reactions.recordSintering(method_.weight(), changes.bridges, exchange_); },
              reactions_);
   counters_.fused += changes.fused;
   counters_.withoutSites += changes.limited;
 }
 
-void TreeProcess::fill(std::span<const TreeStart> starts) {
+void TreePopulation::fill(std::span<const TreeStart> starts) {
   const auto& material = options_.material;
   std::vector<InitialPopulation> modes;
   for (const auto& [units, number, sizes] : starts) {
@@ -57,7 +87,7 @@ void TreeProcess::fill(std::span<const TreeStart> starts) {
     if (!(material.volume(units) > 0) || !((hasSizes ? sizes.number : number) > 0))
       throw InputError("particles: an initial particle needs mass and a number");
     if (sizes.distribution == InitialPopulation::Distribution::modes)
-      throw std::logic_error("TreeProcess: the modes of a start are starts of their own");
+      throw std::logic_error("TreePopulation: the modes of a start are starts of their own");
     modes.push_back(
         hasSizes ? sizes
                  : InitialPopulation{InitialPopulation::Distribution::monodisperse, number, material.volume(units)});
@@ -76,15 +106,15 @@ void TreeProcess::fill(std::span<const TreeStart> starts) {
 }
 
 template <class Reactions>
-typename Reactions::Sums TreeProcess::sums(const Reactions& reactions) const {
+typename Reactions::Sums TreePopulation::sums(const Reactions& reactions) const {
   typename Reactions::Sums all;
   method_.forEachParticle([&](const Tree& p, double weight) { reactions.add(all, p.head(), weight); });
   return all;
 }
-template TreeSites::Sums TreeProcess::sums(const TreeSites&) const;
-template TreeSoot::Sums TreeProcess::sums(const TreeSoot&) const;
+template TreeSites::Sums TreePopulation::sums(const TreeSites&) const;
+template TreeSoot::Sums TreePopulation::sums(const TreeSoot&) const;
 
-void TreeProcess::advance(const ParticleGas& gas, double dt) {
+void TreePopulation::advance(const ParticleGas& gas, double dt) {
   if (!(dt > 0)) return;
   requirePhysical(gas, "particles");
   CollisionKernelOptions kernel = options_.kernel;
@@ -116,7 +146,7 @@ void TreeProcess::advance(const ParticleGas& gas, double dt) {
 }
 
 template <class Reactions>
-void TreeProcess::march(Reactions& reactions, double dt) {
+void TreePopulation::march(Reactions& reactions, double dt) {
   const CollisionKernel* kernel = options_.coagulation ? &*kernel_ : nullptr;
   typename Reactions::Sums now;
   const auto length = [&](double remaining) {
@@ -140,7 +170,7 @@ void TreeProcess::march(Reactions& reactions, double dt) {
 }
 
 template <class Reactions>
-void TreeProcess::Events<Reactions>::giveBirth() {
+void TreePopulation::Events<Reactions>::giveBirth() {
   of.method_.nucleate(of.random_);
   of.births_.bear(weight, of.method_.weight(), of.random_);
   of.exchange_.inceptions += weight;
@@ -149,7 +179,7 @@ void TreeProcess::Events<Reactions>::giveBirth() {
 
 template <class Reactions>
 template <class Process>
-void TreeProcess::Events<Reactions>::take(const Process&, bool happened) {
+void TreePopulation::Events<Reactions>::take(const Process&, bool happened) {
   if (happened)
     of.exchange_.coagulations += weight;
   else
@@ -157,7 +187,7 @@ void TreeProcess::Events<Reactions>::take(const Process&, bool happened) {
 }
 
 template <class Reactions>
-void TreeProcess::jump(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
+void TreePopulation::jump(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
   births_.setRate(reactions.inception(sums, dt));
   births_.plan(method_.weight(), random_);
   double time = type_.clock();
@@ -169,7 +199,7 @@ void TreeProcess::jump(Reactions& reactions, const typename Reactions::Sums& sum
 }
 
 template <class Reactions>
-void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
+void TreePopulation::change(Reactions& reactions, const typename Reactions::Sums& sums, double dt) {
   if (size() == 0) return;
   TreeSintering::Changes sintered;
   reactions.begin(sums, dt);
@@ -190,7 +220,7 @@ void TreeProcess::change(Reactions& reactions, const typename Reactions::Sums& s
   }
 }
 
-void TreeProcess::applyDeferred() {
+void TreePopulation::applyDeferred() {
   const auto waits = [&](const Tree& tree) { return isAggregate(tree.head()) && tree.head().time < type_.clock(); };
   // Where none does, nothing is rebuilt.
   bool isAnyWaiting = false;
@@ -230,28 +260,6 @@ std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
     add({{&E::fragmentations, "fragmentations", "necks of particles that oxidation broke", "fragmentation",
           &R::fragmentations, &C::fragmentations}});
   return events;
-}
-
-std::unique_ptr<TreePopulation> makeTreePopulation(const TreeOptions& options) {
-  requireMaterial(options.material);
-  if (options.shape == TreeShape::surfaceVolume && options.material.sites() == nullptr)
-    throw InputError("particles: only materials with sites are there by volume and surface");
-  if (options.particles < 8) throw InputError("particles: at least 8 numerical particles are needed");
-  if (!(options.splitTolerance > 0) || !(options.splitTolerance <= 1) || !(options.fullAt > 0))
-    throw InputError(
-        "particles: the split tolerance needs to be in (0, 1], the number density of a full sample positive");
-  if (!(options.sinteringTolerance >= 0) || !(options.sinteringTolerance <= 0.1))
-    throw InputError("particles: the tolerance of sintering needs to be in [0, 0.1]");
-  PopulationModel model;
-  if (options.coagulation) {
-    model.coagulation = options.kernel;  // of some gas, until there is the right one
-    model.coagulation->gas = {1500, constants::oneAtmosphere, 0.2, 5e-5, 0.028};
-  }
-  MonteCarloOptions monteCarlo;
-  monteCarlo.method = MonteCarloMethod::dsmc;
-  monteCarlo.particles = options.particles;
-  monteCarlo.expectedNumber = options.fullAt;
-  return std::make_unique<TreeProcess>(options, model, monteCarlo);
 }
 
 }  // namespace lampblack::particles

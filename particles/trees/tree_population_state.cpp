@@ -6,13 +6,12 @@
 #include "core/packed_doubles.hpp"
 #include "particles/population/monte_carlo/weighted_deviation.hpp"
 #include "particles/stochastic/particle_rows.hpp"
-#include "particles/stochastic/size_bins.hpp"
 #include "particles/trees/packed_tree.hpp"
-#include "particles/trees/tree_process.hpp"
+#include "particles/trees/tree_population.hpp"
 
 namespace lampblack::particles {
 
-TreeTotals TreeProcess::totals() const {
+TreeTotals TreePopulation::totals() const {
   TreeTotals t;
   if (size() == 0) return t;
   double levels = 0;
@@ -44,24 +43,23 @@ TreeTotals TreeProcess::totals() const {
   return t;
 }
 
-std::vector<double> TreeProcess::primarySizes(double logMin, double logMax, std::size_t bins) const {
-  std::vector<double> density(bins, 0.0);
-  const SizeBins all{logMin, logMax, bins};
+std::vector<double> TreePopulation::primarySizes(const SizeBins& bins) const {
+  std::vector<double> density(bins.count, 0.0);
   method_.forEachParticle([&](const Tree& p, double w) {
     for (const TreePrimary& primary : p.primaries())
-      if (const std::size_t bin = all.of(primary.diameter); bin < bins) density[bin] += w / all.width();
+      if (const std::size_t bin = bins.of(primary.diameter); bin < bins.count) density[bin] += w / bins.width();
   });
   return density;
 }
 
-std::vector<Tree> TreeProcess::trees() const {
+std::vector<Tree> TreePopulation::trees() const {
   std::vector<Tree> all;
   all.reserve(size());
   method_.forEachParticle([&](const Tree& p, double) { all.push_back(p); });
   return all;
 }
 
-TreeCounters TreeProcess::counters() const {
+TreeCounters TreePopulation::counters() const {
   TreeCounters all = counters_;
   const PopulationCounters& method = const_cast<Method&>(method_).counters();
   all.inceptions = method.nucleations;
@@ -73,28 +71,19 @@ TreeCounters TreeProcess::counters() const {
   return all;
 }
 
-std::unique_ptr<TreePopulation::State> TreeProcess::save() const {
-  auto saved = std::make_unique<Saved>();
-  saved->trees = trees();
-  saved->memory = method_.memory();
-  saved->position = random_.position();
-  saved->births = births_.memory();
-  saved->clock = type_.clock();
-  saved->exchange = exchange_;
-  saved->counters = counters_;
-  saved->method = const_cast<Method&>(method_).counters();
-  return saved;
+TreePopulation::State TreePopulation::save() const {
+  return {trees(),       method_.memory(), random_.position(), births_.memory(),
+          type_.clock(), exchange_,        counters_,          const_cast<Method&>(method_).counters()};
 }
 
-void TreeProcess::restore(const State& state) {
-  const auto& saved = dynamic_cast<const Saved&>(state);
-  random_.seek(saved.position);
-  births_.restore(saved.births);
-  type_.clock() = saved.clock;
-  exchange_ = saved.exchange;
-  counters_ = saved.counters;
-  method_.counters() = saved.method;
-  method_.restore(saved.memory, saved.trees);
+void TreePopulation::restore(const State& state) {
+  random_.seek(state.position);
+  births_.restore(state.births);
+  type_.clock() = state.clock;
+  exchange_ = state.exchange;
+  counters_ = state.counters;
+  method_.counters() = state.method;
+  method_.restore(state.memory, state.trees);
 }
 
 namespace {
@@ -108,7 +97,7 @@ constexpr std::uint64_t TreeCounters::*packedCounters[] = {
 
 }  // namespace
 
-std::vector<double> TreeProcess::pack() const {
+std::vector<double> TreePopulation::pack() const {
   std::vector<double> state{packedTrees, static_cast<double>(options_.material.components.size()),
                             static_cast<double>(options_.particles)};
   packDoubles(state, packedOwner(random_.owner()));
@@ -125,7 +114,7 @@ std::vector<double> TreeProcess::pack() const {
   return state;
 }
 
-void TreeProcess::unpack(std::span<const double> values) {
+void TreePopulation::unpack(std::span<const double> values) {
   PackedDoubles state(values);
   if (state.next() != packedTrees)
     throw InputError(
@@ -152,7 +141,7 @@ void TreeProcess::unpack(std::span<const double> values) {
   kernel_.reset();  // what the store knows of rates is of the gas of who was unpacked before
 }
 
-void TreeProcess::join(std::span<const double> rows, double share) {
+void TreePopulation::join(std::span<const double> rows, double share) {
   std::vector<WeightedParticle<Tree>> coming;
   treeRows.forEach(rows, [&](const double* row) {
     Tree tree = unpackTree({row, treeRows.lengthOf(row)}, type_.pool(), options_.material);
