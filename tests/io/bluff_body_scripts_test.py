@@ -1,4 +1,5 @@
-"""What scripts/bluff_body_inlets makes of a pipe's run, and what scripts/compare_bluff_body says of runs, on results written here."""
+"""What scripts/bluff_body_inlets makes of a pipe's run, and what scripts/compare_bluff_body and
+scripts/bluff_body_soot say of runs, on results written here."""
 
 import csv
 import json
@@ -82,10 +83,39 @@ def check_comparison(folder):
     assert code == 2 and "nowhere" in err, err
 
 
+def check_soot(folder):
+    """Gas that goes back up to z/R 2.74, soot around z/R 1, r/R 0.8, sections with modes at 3 and 8 on the axis and one at 5 beside it."""
+    r, z = np.linspace(0, 0.05, 51), np.linspace(0, 0.3, 121)
+    run = write_run(folder / "sooting", r, z, lambda r, z: 2000 - 1000 * z, BODY)
+    with h5py.File(run / "results.h5", "r+") as file:
+        step, centres = file["steps/000003"], file["mesh/cellCentre"][()]
+        radius, place = centres[:, 0] / R, centres[:, 1] / R
+        step["velocity"] = np.stack([0 * place, np.where(radius < 0.08, 30 - place, 10 * (place - 2.74)), 0 * place], axis=1)
+        step["mixture_fraction"] = 0.9 - 0.1 * place
+        step["soot_volume_fraction"] = 1e-7 * np.exp(-((radius - 0.8) ** 2) - (place - 1) ** 2)
+        for section in range(1, 11):
+            on_axis = np.exp(-((section - 3) ** 2)) + 0.1 * np.exp(-((section - 8) ** 2)) + 1e-3 * (section == 10)
+            step[f"soot_section_{section:02}_aggregates"] = 1e15 * np.where(radius < 0.3, on_axis, np.exp(-((section - 5) ** 2)))
+    code, told, err = called("bluff_body_soot", run, "--json")
+    assert code == 0, err
+    (found,) = json.loads(told)
+    assert abs(found["recirculation_end"] - 2.74) < 1e-9, found
+    assert abs(found["soot"]["z"] - 1) < 0.1 and abs(found["soot"]["r"] - 0.8) < 0.03 and abs(found["soot"]["largest"] - 1e-7) < 1e-9, found
+    row = next(row for row in found["places"] if row["at"] == 2.0)
+    assert abs(row["axis"] - 28) < 1e-9 and abs(row["mixture"] - 0.7) < 1e-9 and abs(row["peak"] - 1950) < 1e-6, row
+    assert abs(row["soot_at"] - 0.8) < 0.03 and abs(row["soot"] / 1e-7 - np.exp(-1)) < 0.02 and row["soot_on_axis"] < 0.6 * row["soot"], row
+    assert row["modes"] == [[3, 8], [5], [5]], row
+    code, told, err = called("bluff_body_soot", run)
+    assert code == 0 and "gas last goes back at z/R 2.74" in told and "r/R 0: 2 (3 8)" in told, told + err
+    code, _, err = called("bluff_body_soot", folder / "nowhere")
+    assert code == 2 and "nowhere" in err, err
+
+
 def main():
     with tempfile.TemporaryDirectory() as scratch:
         check_inlets(pathlib.Path(scratch))
         check_comparison(pathlib.Path(scratch))
+        check_soot(pathlib.Path(scratch))
     return 0
 
 
