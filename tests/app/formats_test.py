@@ -143,6 +143,7 @@ def main(executable: str, *mpiexec: str) -> int:
             "particles.statistics={start: 10 us, block: 2 us}",
             "particles.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
         runs["molecules"] = (CASES / "pah/pyrene_growth/deck.yaml", *running.settings("repeats=20", "gas.end=5 us", "output.spectra=[5 us]"))
+        runs["aggregates"] = (CASES / "aggregates/ballistic/deck.yaml", *running.settings("build.doublings=2", "build.aggregates=4", "repeats=2"))
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (SOOT_TREES, "flame_trees"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")
             runs[run] = (folder / f"{run}.yaml",)
