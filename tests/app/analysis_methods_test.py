@@ -240,6 +240,23 @@ def check_front():
         assert abs(points[:, 0].min() - least) < 0.01 and abs(points[:, 0].max() - 0.8) < 0.01, points
 
 
+def check_noise():
+    """Terms that follow the noise of runs are not taken where it is known: a plane in noise stays one, a curve keeps its terms."""
+    draw = np.random.default_rng(5)
+    most, kept, off = 0, 0, []
+    for _ in range(20):
+        x = designs.sobol(32, 2, int(draw.integers(10**6)))
+        noise = 0.3 * draw.standard_normal(32)
+        plane = surrogate.Surrogate(x, x[:, 0] + noise, 6, noise=0.3)
+        most = max(most, len(plane.terms))
+        curve = surrogate.Surrogate(x, 20 * (x[:, 0] - 0.5) ** 3 + 0.02 * noise, 6, noise=0.006)
+        kept += bool(np.any(curve.terms[:, 0] == 3))
+        at = designs.sobol(256, 2, 1)
+        off.append(np.sqrt(np.mean((plane(at) - at[:, 0]) ** 2)))
+    print(f"planes in noise: {most} terms at most, off by {np.mean(off):.3f} in the mean, of a noise of 0.3")
+    assert most <= 6 and np.mean(off) < 0.15 and kept == 20, (most, np.mean(off), kept)
+
+
 def check_openturns():
     """Another program's chaos of the same points, where it is installed."""
     if not importlib.util.find_spec("openturns"):

@@ -7,7 +7,7 @@ import numpy as np
 from ..errors import InputError, NumericsError
 from . import posterior
 from .measurements import read_measurements
-from .objective import Objective
+from .objective import Objective, mean_noise
 from .search import jacobian, objective, search
 from .surrogate import Together
 from .tables import aligned, write_best, write_points, write_record, write_table
@@ -33,9 +33,9 @@ class Model:
 
     def make_surrogates(self, points, values, errors):
         transformed = self.target.transformed(values)
-        own = np.nan_to_num(np.nanmean(self.target.transformed_errors(values, errors), axis=0))
+        own = mean_noise(self.target.outputs, values, errors)
         enough = np.hypot(OF_ERROR * self.target.deviations(0.0), OF_NOISE * own)
-        self.surrogates = self.work.surrogates(points, transformed, [o.name for o in self.target.outputs], enough)
+        self.surrogates = self.work.surrogates(points, transformed, [o.name for o in self.target.outputs], own, enough)
         self.together = Together(self.surrogates)
         # What a surrogate misses counts as an error too; where runs are stochastic their scatter is in it.
         self.noise = np.maximum(own, [s.deviation for s in self.surrogates])

@@ -5,6 +5,7 @@ from scipy.optimize import differential_evolution
 
 from ..errors import InputError
 from .measurements import Output
+from .objective import mean_noise
 from .tables import aligned, write_best, write_points, write_record, write_table
 
 
@@ -61,7 +62,7 @@ def trade_off(work):
     points = work.design()
     values, errors = work.asked(points, outputs, "design")
     transformed = np.stack([o.quantity.transformed(values[:, k]) for k, o in enumerate(outputs)], axis=1)
-    made = work.surrogates(points, transformed, [o.name for o in outputs])
+    made = work.surrogates(points, transformed, [o.name for o in outputs], mean_noise(outputs, values, errors))
     signs = [1 if one["sense"] == "minimise" else -1 for one in objectives]
 
     def missed_by(numbers):

@@ -3,6 +3,12 @@
 import numpy as np
 
 
+def mean_noise(outputs, values, errors):
+    """Of each output, the standard error of its runs after the transform, in the mean over those that ran."""
+    every = [o.quantity.transformed_error(values[:, k], errors[:, k]) for k, o in enumerate(outputs)]
+    return np.array([np.mean(one[np.isfinite(one)]) if np.any(np.isfinite(one)) else 0.0 for one in every])
+
+
 class Objective:
     """`outputs` are measurements. With T the transform of their quantity, r = (T(y) - T(f)) / s, where s^2 has the error of the measurement,
     the standard error of the run and what the model is allowed; priors that are not uniform count as measurements of their parameters."""

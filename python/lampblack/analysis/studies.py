@@ -7,7 +7,7 @@ from scipy.stats import qmc
 from ..errors import InputError, ResultsError
 from . import choice, indices
 from .measurements import read_measurements, single_numbers
-from .objective import Objective
+from .objective import Objective, mean_noise
 from .search import jacobian
 from .tables import aligned, write_points, write_record, write_table
 
@@ -90,7 +90,7 @@ def sensitivity(work):
     if method == "surrogate":
         points = work.design()
         values, errors = work.asked(points, outputs, "design")
-        made = work.surrogates(points, _transformed(outputs, values), [o.name for o in outputs])
+        made = work.surrogates(points, _transformed(outputs, values), [o.name for o in outputs], mean_noise(outputs, values, errors))
         r2 = min(s.r2 for s in made)
         head = ["output", "parameter", "S", "S_T", "r2"]
         for o, s in zip(outputs, made):
@@ -154,7 +154,7 @@ def propagate(work):
     if options["through"] == "surrogate":
         points = work.design()
         values, errors = work.asked(points, outputs, "design")
-        made = work.surrogates(points, _transformed(outputs, values), [o.name for o in outputs])
+        made = work.surrogates(points, _transformed(outputs, values), [o.name for o in outputs], mean_noise(outputs, values, errors))
         found = np.stack([o.quantity.back(s(samples)) for o, s in zip(outputs, made)], axis=1)
     else:
         points = samples

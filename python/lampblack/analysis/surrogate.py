@@ -8,6 +8,9 @@ import numpy as np
 from ..errors import NumericsError
 
 
+NOT_BELOW = 1.2  # how near to points left out a surrogate may come, in standard errors of the runs
+
+
 def legendre(x, order):
     """Values of the polynomials of degree 0 to order at x in [0, 1], orthonormal there: a column a degree."""
     x = 2 * np.asarray(x, float) - 1
@@ -51,12 +54,13 @@ def left_out(matrix, f):
     return coefficients, (f - matrix @ coefficients) / np.maximum(1 - leverage, 1e-12)
 
 
-def _r2(rest, f):
+def _r2(rest, f, floor=0.0):
+    """Differences below a floor, in the mean, are all alike."""
     spread = np.sum((f - f.mean()) ** 2)
-    return 1 - np.sum(rest**2) / spread if spread > 0 else 1.0
+    return 1 - max(np.sum(rest**2), len(f) * floor**2) / spread if spread > 0 else 1.0
 
 
-def _selected(matrix, f):
+def _selected(matrix, f, floor):
     """Columns taken one after another, each the one most like what is left, as long as the points left out agree better: at most one
     for two points."""
     chosen, best, best_r2 = [0], [0], -np.inf
@@ -71,7 +75,7 @@ def _selected(matrix, f):
         if coefficients is None:
             break
         rest = f - matrix[:, chosen] @ coefficients
-        r2 = _r2(outside, f)
+        r2 = _r2(outside, f, floor)
         misses = 0 if r2 > best_r2 else misses + 1
         if r2 > best_r2:
             best, best_r2 = list(chosen), r2
@@ -80,9 +84,10 @@ def _selected(matrix, f):
 
 class Surrogate:
     """One number as a polynomial of the parameters. `r2` is that of the fifth of the points that was held out while the terms were
-    chosen and fitted; the coefficients are then those of all points."""
+    chosen and fitted; the coefficients are then those of all points. `noise` is the standard error of f: terms that only follow it are
+    not taken."""
 
-    def __init__(self, x, f, order, pairs=True):
+    def __init__(self, x, f, order, pairs=True, noise=0.0):
         x, f = np.atleast_2d(x), np.asarray(f, float)
         if len(f) < 5:
             raise NumericsError(f"surrogate: {len(f)} points that ran are not enough for a polynomial; increase design.points")
@@ -90,16 +95,16 @@ class Surrogate:
         everything = terms_up_to(order, x.shape[1], pairs)
         degree = everything.sum(axis=1)
         inside, f_inside = basis(x[~held], everything), f[~held]
-        best, best_r2 = [0], -np.inf
+        best, best_r2, floor = [0], -np.inf, NOT_BELOW * noise
         for most in range(1, order + 1):
             columns = np.flatnonzero(degree <= most)
             if 2 * len(columns) > len(f_inside):
                 break
-            r2 = _r2(left_out(inside[:, columns], f_inside)[1], f_inside)
+            r2 = _r2(left_out(inside[:, columns], f_inside)[1], f_inside, floor)
             if r2 > best_r2:
                 best, best_r2 = columns, r2
         if 2 * len(everything) > len(f_inside):  # too few points for all terms: those that matter
-            columns, r2 = _selected(inside, f_inside)
+            columns, r2 = _selected(inside, f_inside, floor)
             if r2 > best_r2:
                 best = columns
         self.terms = everything[best]

@@ -86,14 +86,14 @@ class Work:
                           f"ranges in which it is above 0, or quantities.{o.quantity.name}.transform: none")
         return values, errors
 
-    def surrogates(self, points, values, names, enough=None):
-        """One of each column of values, from the points that ran. NumericsError where one is too poor, unless it misses by less than is
+    def surrogates(self, points, values, names, noise, enough=None):
+        """One of each column of values, from the points that ran, of which `noise` is the standard error in the mean. NumericsError where one is too poor, unless it misses by less than is
         `enough` for its column: what hardly changes need not be known well."""
         options = self.options["surrogate"]
         made = []
         for k, name in enumerate(names):
             good = np.isfinite(values[:, k])
-            made.append(Surrogate(points[good], values[good, k], options["order"], options["pairs"]))
+            made.append(Surrogate(points[good], values[good, k], options["order"], options["pairs"], noise[k]))
             if made[-1].r2 < options["least_r2"] and (enough is None or made[-1].deviation > enough[k]):
                 raise NumericsError(
                     f"surrogate: that of {name} has R2 = {made[-1].r2:.3f} at the points held out, below surrogate.least_r2 = {options['least_r2']:g}; "
