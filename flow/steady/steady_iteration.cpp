@@ -29,6 +29,9 @@ constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 constexpr double growthAfterFailure = 1.2;
+// Of the Courant number, at least, where no cell was limited and no more is left than before: in thin cells the residual
+// falls as slowly as a small one lets it, and would hold it where it is.
+constexpr double quietGrowth = 1.1;
 // A cell whose change has to be limited goes slower than others in the next iteration, by the share that was taken, and
 // catches up when it has not to be: gas that ignites does so in far less time than it stays.
 constexpr double mostSlowed = 0.25, catchesUp = 1.5, leastHaste = 1e-8;
@@ -268,9 +271,10 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
   }
   outcome.taken = true;
   isAnew_ = false;
-  // Below its start it is too small for the residual to fall, which would hold it there.
-  const bool recovers = courant_ < options_.firstCourant && outcome.limited == 0 && measure_ <= last;
-  courant_ *= std::clamp(last / measure_, recovers ? growthAfterFailure : leastGrowth, mostGrowth);
+  // Below its start it is too small for the residual to fall, too.
+  const bool isQuiet = outcome.limited == 0 && measure_ <= last;
+  const double least = !isQuiet ? leastGrowth : courant_ < options_.firstCourant ? growthAfterFailure : quietGrowth;
+  courant_ *= std::clamp(last / measure_, least, mostGrowth);
   courant_ = std::min(courant_, options_.mostCourant);
   return outcome;
 }
