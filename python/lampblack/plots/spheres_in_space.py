@@ -27,7 +27,8 @@ def _plot_history(columns, pictures):
     figure, panels = plt.subplots(2, 2, figsize=(9.6, 6.4), sharex=True)
     groups = (
         ("length, nm", 1e9, (("gyration", "radius of gyration"), ("radius", "radius of a sphere"), ("mobility_diameter", "diameter of mobility"))),
-        ("fractal law", 1, (("fractal_dimension", "dimension"), ("fractal_prefactor", "prefactor"))),
+        ("fractal law", 1, (("fractal_dimension", "dimension"), ("fractal_prefactor", "prefactor"))) if np.any(np.isfinite(columns["fractal_dimension"][rows]))
+        else ("surface of a particle, nm$^2$", 1e18, (("surface", ""),)),
         ("spheres of a particle", 1, (("spheres", "mean"), ("largest", "largest"))),
         ("radius of necks over radius", 1, (("neck_ratio", ""),)) if is_timed and np.nanmax(columns["neck_ratio"]) > 0
         else ("lines drawn for a collision", 1, (("lines", ""),)),
