@@ -109,9 +109,10 @@ void addAnalysisCommands(CLI::App& app, Command& command) {
     subcommand->add_option("--ranks", arguments->ranks, "MPI ranks of the runs; all processors otherwise.")
         ->check(CLI::PositiveNumber);
     subcommand
-        ->add_option("--jobs", arguments->jobs,
-                     "Run nothing: write the runs that are missing as an array of so many jobs for SLURM, each on the ranks "
-                     "of --ranks or of ranks_per_run.")
+        ->add_option(
+            "--jobs", arguments->jobs,
+            "Run nothing: write the runs that are missing as an array of so many jobs for SLURM, each on the ranks "
+            "of --ranks or of ranks_per_run.")
         ->check(CLI::PositiveNumber);
     subcommand->callback(
         [arguments, &command, &task] { command = {[arguments, &task] { analyse(task, *arguments); }}; });
