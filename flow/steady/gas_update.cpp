@@ -18,6 +18,7 @@ constexpr double kelvins = 1000.0;
 // What an iteration changes in a cell at most.
 constexpr double mostRise = 100.0;      // K
 constexpr double mostOfFraction = 0.1;  // mass fraction of any species
+constexpr double leastOfTrace = 0.1;    // of itself, of a trace, that is left
 constexpr double gasReduction = 0.01;   // of the linear system's residual
 constexpr int mostGasIterations = 60;
 // The same where the load is an unknown, which is a ratio of what two systems give.
@@ -149,7 +150,8 @@ double GasUpdate::take(State& state, int cell, double& largestRise) {
   for (std::size_t k = 0; k < n_; ++k) {
     const double reacts = -V * slopes[k * (width + 1)], moves = block[k * (width + 1)] - reacts;
     const bool isFast = reacts > moves;
-    const double least = isFast ? leastOfSpecies : std::min(Y[k], leastOfSpecies);
+    const bool isMovedTrace = !isFast && Y[k] > 0.0 && Y[k] < traceOfSpecies;
+    const double least = isFast ? leastOfSpecies : isMovedTrace ? leastOfTrace * Y[k] : std::min(Y[k], leastOfSpecies);
     Y[k] = std::max(std::max(Y[k], isFast ? leastOfSpecies : Y[k]) + share * change[k], least);
     sum += Y[k];
   }

@@ -23,6 +23,11 @@ namespace lampblack::flow {
 // oxygen below zero would burn grows: traces such as HCO then live where there is no oxygen.
 inline constexpr double leastOfSpecies = -1e-12;
 
+// Mass fraction below which a species is a trace. An iteration leaves at least a tenth of a trace that is moved faster
+// than it reacts: of two that burn each other at once there is one or the other, and a change that takes all of the one
+// has the other grow in a gas that then has too much of both, with rates far beyond any of the flame.
+inline constexpr double traceOfSpecies = 1e-6;
+
 // NumericsError for a temperature (K) that no gas has data for.
 void checkTemperature(double temperature);
 

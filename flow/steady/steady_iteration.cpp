@@ -229,7 +229,7 @@ void SteadyIteration::advanceCarried(State& state) {
   }
 }
 
-SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
+SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelerate) {
   Outcome outcome;
   outcome.courant = courant_;
   const double last = measure_;
@@ -253,7 +253,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
       outcome.flowIterations += flow.iterations;
       outcome.pressureIterations += flow.pressureIterations;
     }
-    if (last < options_.accelerated && outcome.limited == 0)
+    if (mayAccelerate && last < options_.accelerated && outcome.limited == 0)
       accelerate(state);
     else
       mixing_.clear();
@@ -279,11 +279,11 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state) {
   return outcome;
 }
 
-SteadyIteration::Outcome SteadyIteration::iterate(State& state) {
+SteadyIteration::Outcome SteadyIteration::iterate(State& state, bool mayAccelerate) {
   before_ = state;
   if (control_) loadBefore_ = control_->load();
   const double last = measure_;
-  Outcome outcome = attempt(state);
+  Outcome outcome = attempt(state, mayAccelerate);
   if (outcome.taken) return outcome;
   state = *before_;
   if (control_) control_->setLoad(state, loadBefore_);

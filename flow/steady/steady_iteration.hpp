@@ -52,8 +52,10 @@ class SteadyIteration {
     double largestRise = 0.0;                                           // K, that the linear system asked for
     std::int64_t limited = 0;                                           // cells where less than that was taken
   };
-  // Collective. One iteration; leaves the state as it was where it fails, and the next one tries less.
-  Outcome iterate(State& state);
+  // Collective. One iteration; leaves the state as it was where it fails, and the next one tries less. `mayAccelerate`:
+  // false where the flow is at rest but for species: what is a small difference of large rates, as of two species in
+  // equilibrium, an iteration finds by itself, and a combination of several disturbs.
+  Outcome iterate(State& state, bool mayAccelerate = true);
 
   // Of the state as it is now.
   [[nodiscard]] const FlowResidual& residual() const { return residual_; }
@@ -64,7 +66,7 @@ class SteadyIteration {
   void saveOrLoad(const State& state, StateArchive& archive);
 
  private:
-  Outcome attempt(State& state);
+  Outcome attempt(State& state, bool mayAccelerate);
   // Takes the best combination of the last iterations in place of the present.
   void accelerate(State& state);
   [[nodiscard]] double massOf(const State& state) const;  // kg

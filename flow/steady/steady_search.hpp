@@ -37,6 +37,8 @@ class SteadySearch {
 
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] bool isSteady() const { return isSteady_; }
+  // Whether nothing is left of momentum, as far as the search asks for it.
+  [[nodiscard]] bool isFlowAtRest() const { return latest_.ofMomentum <= options_.residual; }
   // Whether iterations and returns are used up.
   [[nodiscard]] bool isGivenUp() const { return isGivenUp_; }
   // Whether the residual of the state after the last step has to be told before the next.

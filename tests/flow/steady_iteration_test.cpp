@@ -369,6 +369,22 @@ TEST_F(SteadyIterations, LeaveNoSpeciesBelowItsLimit) {
   }
 }
 
+// An iteration that may not be combined with others is the one that never is.
+TEST_F(SteadyIterations, AreCombinedOnlyWhereTheyMay) {
+  const auto after = [&](double accelerated, bool mayAccelerate) {
+    Box b = channel(lean, 300.0, 0.8);
+    State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 320.0, lean}; });
+    TransportOperator transport(b.context, state);
+    transport.initialise(state, 1e-4);
+    SteadyIteration iteration(b.context, state, {.accelerated = accelerated}, {&transport});
+    for (int i = 0; i < 6; ++i) iteration.iterate(state, mayAccelerate);
+    return state.temperature;
+  };
+  const std::vector<double> plain = after(0.0, true);
+  EXPECT_EQ(after(1e9, false), plain);
+  EXPECT_NE(after(1e9, true), plain);
+}
+
 // The flame that iterations find is one that steps leave as it is; on one rank it is the same.
 TEST_F(SteadyIterations, FindAFlame) {
   const auto find = [&](MPI_Comm comm, auto look) {

@@ -36,6 +36,17 @@ void pass(SteadySearch& from, SteadySearch& to) {
   kept.restore([&](StateArchive& archive) { to.saveOrLoad(archive); });
 }
 
+TEST(SteadySearch, KnowsAFlowThatIsAtRest) {
+  SteadySearch search({.residual = 1e-7}), other({.residual = 1e-7});
+  steps(search);
+  EXPECT_FALSE(search.isFlowAtRest());
+  search.addIteration({1e-3, 2e-7, 1e-9}, 1.0);
+  EXPECT_FALSE(search.isFlowAtRest());
+  search.addIteration({1e-3, 1e-8, 1e-5}, 1.0);
+  pass(search, other);
+  EXPECT_TRUE(search.isFlowAtRest() && other.isFlowAtRest() && !search.isSteady());
+}
+
 // As many iterations and returns as at the start; what was found before is not found any more.
 TEST(SteadySearch, GoesOnWhereWhatActsHasChanged) {
   SteadySearch search({.residual = 1e-7, .iterations = 10});
