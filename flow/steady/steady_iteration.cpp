@@ -29,8 +29,8 @@ constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 constexpr double growthAfterFailure = 1.2;
-// Of the Courant number, at least, where no cell was limited and no more is left than before: in thin cells the residual
-// falls as slowly as a small one lets it, and would hold it where it is.
+// Of the Courant number, at least, where no cell was limited and no more is left than before: in thin cells the
+// residual falls as slowly as a small one lets it, and would hold it where it is.
 constexpr double quietGrowth = 1.1;
 // A cell whose change has to be limited goes slower than others in the next iteration, by the share that was taken, and
 // catches up when it has not to be: gas that ignites does so in far less time than it stays.
