@@ -249,7 +249,7 @@ def check_noise():
         noise = 0.3 * draw.standard_normal(32)
         plane = surrogate.Surrogate(x, x[:, 0] + noise, 6, noise=0.3)
         most = max(most, len(plane.terms))
-        curve = surrogate.Surrogate(x, 20 * (x[:, 0] - 0.5) ** 3 + 0.02 * noise, 6, noise=0.006)
+        curve = surrogate.Surrogate(x, 20 * (x[:, 0] - 0.5) ** 3 + noise / 6, 6, noise=0.05)
         kept += bool(np.any(curve.terms[:, 0] == 3))
         at = designs.sobol(256, 2, 1)
         off.append(np.sqrt(np.mean((plane(at) - at[:, 0]) ** 2)))
