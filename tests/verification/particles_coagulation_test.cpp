@@ -11,6 +11,7 @@
 #include "particles/ensemble/ensemble.hpp"
 #include "tests/effort.hpp"
 #include "tests/every_module.hpp"
+#include "tests/particles/packed_sizes.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -183,7 +184,7 @@ TEST(ParticlesVerification, ConstantKernelGivesTheExactClusterSizes) {
     for (std::size_t k = 0; k < 5; ++k) {
       const auto at = [&](double monomers) { return std::log10(std::cbrt(6 * monomers * mass / rho / constants::pi)); };
       const double size = static_cast<double>(k + 1), low = at(size - 0.4), high = at(size + 0.4);
-      count[k] = soot->sizeDistribution(low, high, 1)[0] * (high - low) / n0;
+      count[k] = test::sizesOf(*soot, {low, high, 1})[0] * (high - low) / n0;
     }
     for (std::size_t k = 0; k < 5; ++k) sizes[k].values.push_back(count[k]);
   }

@@ -8,9 +8,8 @@
 #include "../statistics.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
-#include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/models/two_equation/two_equation.hpp"
-#include "particles/stochastic/row_sizes.hpp"
+#include "tests/particles/packed_sizes.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {
@@ -265,8 +264,7 @@ TEST_P(StochasticJumps, DilutionThinsExponentially) {
 TEST(StochasticJumps, DistributionIntegratesToTheNumberDensity) {
   const auto soot = monodisperse(EnsembleMethod::dsmc, {.type = CollisionKernelType::freeMolecular}, 1, 2000);
   soot->advance(flame().state, 0, 0.005);
-  std::vector<double> density(60);
-  addSizes({sootAggregate(soot->options()), {packedHead, false}}, {-9.5, -6.5, 60}, soot->pack(), density);
+  const auto density = test::sizesOf(*soot, {-9.5, -6.5, 60});
   const double number = soot->totals().number;
   EXPECT_NEAR(std::accumulate(density.begin(), density.end(), 0.0) * 3.0 / 60 / number, 1, 1e-12);
   EXPECT_NEAR(soot->moment(1) / soot->volumeFraction(), 1, 1e-12);

@@ -7,6 +7,7 @@
 #include "particles/population/sectional/section_coagulation.hpp"
 #include "tests/particles/models/sectional/section_batch.hpp"
 #include "tests/particles/models/sectional/sectional_soot_fixtures.hpp"
+#include "tests/particles/packed_sizes.hpp"
 
 namespace lampblack::particles {
 namespace {
@@ -167,7 +168,7 @@ TEST(SectionalEvolution, SectionsLieOnResolvedParticles) {
     const auto particles = makeEnsemble(stochastic);
     particles->advance(gas.gas, 0, time);
     std::array<double, 2 + bins> result{particles->totals().number, particles->volumeFraction()};
-    const auto density = particles->sizeDistribution(logMin, logMin + width * (bins + 8), bins + 8);
+    const auto density = test::sizesOf(*particles, {logMin, logMin + width * (bins + 8), bins + 8});
     for (std::size_t b = 0; b < bins + 8; ++b) result[2 + std::min(b, bins - 1)] += density[b] * width;
     results.push_back(result);
   }
