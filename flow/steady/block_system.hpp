@@ -63,7 +63,7 @@ class BlockSystem {
   HaloExchange& halo_;
   std::size_t fields_;
   std::vector<double> blocks_;
-  std::vector<float> inverse_;  // of what elimination leaves of the blocks
+  std::vector<float> inverse_;          // of what elimination leaves of the blocks
   std::vector<double> toLow_, toHigh_;  // coefficients, fields an interior face
   std::vector<double> scale_;           // of the equations of a cell
   std::vector<double> work_, row_, ones_;

@@ -42,8 +42,10 @@ std::vector<double> fillSystem(const Mesh& mesh, BlockSystem& system, double con
     system.addInertia(c, 0.01);
     for (std::size_t i = 0; i < blockFields; ++i) {
       for (std::size_t j = 0; j < blockFields; ++j)
-        system.block(c)[j * blockFields + i] += i == j ? 0.02 : 0.01 * (static_cast<double>(i) - static_cast<double>(j));
-      right[at(c) * blockFields + i] = std::sin(300.0 * mesh.centre[c][0] + 500.0 * mesh.centre[c][1] + static_cast<double>(i));
+        system.block(c)[j * blockFields + i] +=
+            i == j ? 0.02 : 0.01 * (static_cast<double>(i) - static_cast<double>(j));
+      right[at(c) * blockFields + i] =
+          std::sin(300.0 * mesh.centre[c][0] + 500.0 * mesh.centre[c][1] + static_cast<double>(i));
     }
   }
   return right;

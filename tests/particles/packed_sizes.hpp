@@ -12,7 +12,8 @@ namespace lampblack::test {
 // dN/dlog10(d), 1/m3, by mobility diameter.
 [[nodiscard]] inline std::vector<double> sizesOf(const particles::Ensemble& soot, const particles::SizeBins& bins) {
   std::vector<double> density(bins.count);
-  particles::addSizes({particles::sootAggregate(soot.options()), {particles::packedHead, false}}, bins, soot.pack(), density);
+  particles::addSizes({particles::sootAggregate(soot.options()), {particles::packedHead, false}}, bins, soot.pack(),
+                      density);
   return density;
 }
 
