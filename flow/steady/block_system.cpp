@@ -200,7 +200,6 @@ void BlockSystem::precondition(Vec x, Vec y) {
 
 BlockSystem::Result BlockSystem::solve(std::span<const double> right, std::span<double> x, double reduction,
                                        int mostIterations) {
-  factorise();
   {
     const PetscMutableValues values(rightSide_.get());
     for (int c = 0; c < mesh_.owned; ++c)

@@ -38,13 +38,17 @@ class BlockSystem {
   void drift(int face, std::size_t field, double flow);
   // Adds one number to the diagonal of a cell, of each field.
   void addInertia(int cell, double inertia);
+  // Collective. What solve() needs of the system as it is. NumericsError where a block is singular.
+  void factorise();
+  // One over the mean of a cell's diagonal, of the last factorise().
+  [[nodiscard]] double scale(int cell) const { return scale_[static_cast<std::size_t>(cell)]; }
 
   struct Result {
     int iterations = 0;
     bool isConverged = false;
   };
   // Collective. `right`: fields a owned cell; `x`: fields a cell, the solution out (halo filled). Down to `reduction`
-  // of the right side, each cell's counted over the mean of its diagonal. NumericsError where a block is singular.
+  // of the right side, each cell's counted over the mean of its diagonal.
   Result solve(std::span<const double> right, std::span<double> x, double reduction, int mostIterations);
 
  private:
@@ -55,7 +59,6 @@ class BlockSystem {
   [[nodiscard]] Neighbour neighbour(int cell, int face) const;
   // To `row_`, what the neighbours before the cell, or behind it, bring.
   void addNeighbours(int cell, std::span<const double> values, bool before);
-  void factorise();
   void multiply(Vec x, Vec y);
   void precondition(Vec x, Vec y);
 

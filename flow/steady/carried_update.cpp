@@ -185,6 +185,7 @@ void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
 int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
   findScales(state);
   assemble(state, residual, inertia);
+  system_.factorise();
   const BlockSystem::Result result = system_.solve(right_, change_, carriedReduction, mostCarriedIterations);
   takeShares(state, residual);
   for (Operator* op : operators_) op->setDiffusivities(state);

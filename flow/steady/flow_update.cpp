@@ -11,6 +11,7 @@ namespace {
 
 constexpr double flowReduction = 0.03;
 constexpr int mostFlowIterations = 60;
+constexpr double roughly = 1e-3;  // of the largest change of a flow, in place of round-off of the largest flow
 
 }  // namespace
 
@@ -20,34 +21,31 @@ FlowUpdate::FlowUpdate(const FlowContext& context, const State& state, FlowResid
       d_(static_cast<std::size_t>(state.dimension)),
       fields_(d_ + (state.swirls ? 1 : 0)),
       system_(context.mesh, context.halo, fields_),
-      projection_(context, residual.forces().pressureKnown()) {
+      projection_(context, residual.forces().pressureKnown()),
+      roughProjection_(context, residual.forces().pressureKnown(), roughly) {
   const auto cells = static_cast<std::size_t>(context.mesh.cells), owned = static_cast<std::size_t>(context.mesh.owned);
-  right_.resize(owned * fields_);
-  change_.resize(cells * fields_);
+  left_.momentum.resize(owned * fields_);
+  left_.mass.resize(owned);
+  left_.massFlux.resize(static_cast<std::size_t>(context.mesh.faces));
+  change_.velocity.resize(cells * fields_);
+  change_.pressure.resize(cells);
+  change_.massFlux.resize(left_.massFlux.size());
+  inverse_.resize(owned);
   response_.resize(cells);
   share_.resize(cells);
-  faceResponse_.resize(static_cast<std::size_t>(context.mesh.faces));
-  flux_.resize(faceResponse_.size());
-  pressure_.resize(cells);
+  for (std::vector<double>* all : {&faceResponse_, &faceShare_, &faceFlux_, &flux_}) all->resize(left_.massFlux.size());
   divergence_.resize(owned);
 }
 
 void FlowUpdate::assemble(const State& state, std::span<const double> inertia) {
   const Mesh& m = context_.mesh;
-  const FlowResidual::Rates& rates = residual_.rates();
   MomentumForces& forces = residual_.forces();
   system_.clear();
   for (int c = 0; c < m.owned; ++c) {
     const auto cell = static_cast<std::size_t>(c);
     double* block = system_.block(c);
-    for (std::size_t i = 0; i < d_; ++i) {
-      right_[cell * fields_ + i] = rates.momentum[cell * d_ + i];
-      block[i * (fields_ + 1)] += forces.diagonal()[cell * d_ + i];
-    }
-    if (state.swirls) {
-      right_[cell * fields_ + d_] = rates.angularMomentum[cell] / m.centre[c][0];
-      block[d_ * (fields_ + 1)] += forces.diagonal()[cell * d_ + 1];
-    }
+    for (std::size_t i = 0; i < d_; ++i) block[i * (fields_ + 1)] += forces.diagonal()[cell * d_ + i];
+    if (state.swirls) block[d_ * (fields_ + 1)] += forces.diagonal()[cell * d_ + 1];
     system_.addInertia(c, inertia[c]);
   }
   for (int face = 0; face < m.faces; ++face) {
@@ -62,27 +60,25 @@ void FlowUpdate::assemble(const State& state, std::span<const double> inertia) {
   }
 }
 
-void FlowUpdate::move(State& state, std::span<const double> inertia) {
+void FlowUpdate::findResponses(const State& state, std::span<const double> inertia) {
   const Mesh& m = context_.mesh;
   const std::span<const double> relaxation = residual_.forces().relaxation();
+  through_ = 0.0;
+  for (const double flow : state.massFlux) through_ = std::max(through_, std::abs(flow));
   for (int c = 0; c < m.owned; ++c) {
     const double step = state.density[c] * m.volume[c] / inertia[c];
     response_[c] = step;
     share_[c] = step * relaxation[c] / (1.0 + step * relaxation[c]);
+    inverse_[c] = 1.0 / state.density[c];
   }
   std::vector<FieldView> known{{response_, 1}, {share_, 1}};
   context_.halo.update(known);
-  const FlowResidual::Rates& rates = residual_.rates();
   for (int face = 0; face < m.faces; ++face) {
     const auto low = static_cast<std::size_t>(m.low[face]);
     const bool isInside = m.high[face] >= 0;
     const std::size_t high = isInside ? static_cast<std::size_t>(m.high[face]) : low;
     const double w = isInside ? m.lowWeight[face] : 1.0;
     const bool isOpen = isInside || context_.boundaryOf(face).kind == BoundaryKind::Outlet;
-    double rises = 0.0;
-    if (isOpen)
-      for (std::size_t i = 0; i < d_; ++i)
-        rises += m.normal[face][i] * (w * change_[low * fields_ + i] + (1.0 - w) * change_[high * fields_ + i]);
     const double density = residual_.faces().density[face];
     // What goes through an outlet has the velocity of its cell, whose gas may be far lighter than what is drawn in: the
     // flux follows the pressure by as much more than the cell's momentum.
@@ -91,46 +87,74 @@ void FlowUpdate::move(State& state, std::span<const double> inertia) {
     double holds = 1.0;
     if (!isInside && isOpen && state.massFlux[face] < 0.0)
       holds += denser * response_[low] / m.distance[face] * -state.massFlux[face] / (density * m.area[face]);
-    const double share = isInside ? w * share_[low] + (1.0 - w) * share_[high] : 1.0;
-    const double rise = (share * rates.massFlux[face] + density * m.area[face] * rises) / holds;
-    flux_[face] = m.area[face] > 0.0 ? (state.massFlux[face] + rise) / m.area[face] : 0.0;
+    faceShare_[face] = (isInside ? w * share_[low] + (1.0 - w) * share_[high] : 1.0) / holds;
+    faceFlux_[face] = isOpen ? density / holds : 0.0;
     faceResponse_[face] = denser * (w * response_[low] + (1.0 - w) * response_[high]) / holds;
   }
-  for (int c = 0; c < m.cells; ++c) {
-    const auto cell = static_cast<std::size_t>(c);
-    for (std::size_t i = 0; i < d_; ++i) state.velocity[cell * d_ + i] += change_[cell * fields_ + i];
-    if (state.swirls) state.swirl[cell] += change_[cell * fields_ + d_];
+}
+
+void FlowUpdate::prepare(const State& state, std::span<const double> inertia) {
+  assemble(state, inertia);
+  system_.factorise();
+  findResponses(state, inertia);
+}
+
+FlowUpdate::Left& FlowUpdate::left(const State& state) {
+  const Mesh& m = context_.mesh;
+  const FlowResidual::Rates& rates = residual_.rates();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
+    for (std::size_t i = 0; i < d_; ++i) left_.momentum[c * fields_ + i] = rates.momentum[c * d_ + i];
+    if (state.swirls) left_.momentum[c * fields_ + d_] = rates.angularMomentum[c] / m.centre[c][0];
   }
+  left_.mass = rates.mass;
+  left_.massFlux = rates.massFlux;
+  return left_;
+}
+
+// Velocities and mass fluxes under the pressure there is, and the pressure that takes what is left of the mass away.
+const FlowUpdate::Change& FlowUpdate::find(const Left& left, bool exactly) {
+  const Mesh& m = context_.mesh;
+  std::vector<double>& velocity = change_.velocity;
+  change_.iterations.iterations = system_.solve(left.momentum, velocity, flowReduction, mostFlowIterations).iterations;
+  for (int face = 0; face < m.faces; ++face) {
+    const auto low = static_cast<std::size_t>(m.low[face]);
+    const bool isInside = m.high[face] >= 0;
+    const std::size_t high = isInside ? static_cast<std::size_t>(m.high[face]) : low;
+    const double w = isInside ? m.lowWeight[face] : 1.0;
+    double rises = 0.0;
+    for (std::size_t i = 0; i < d_; ++i)
+      rises += m.normal[face][i] * (w * velocity[low * fields_ + i] + (1.0 - w) * velocity[high * fields_ + i]);
+    const double area = m.area[face];
+    flux_[face] = area > 0.0 ? faceShare_[face] * left.massFlux[face] / area + faceFlux_[face] * rises : 0.0;
+  }
+  for (int c = 0; c < m.owned; ++c) divergence_[c] = left.mass[c] / m.volume[c];
+
+  std::ranges::fill(change_.pressure, 0.0);
+  change_.iterations.pressureIterations =
+      (exactly ? projection_.solve(1.0, faceResponse_, divergence_, flux_, change_.pressure, through_)
+               : roughProjection_.solve(1.0, faceResponse_, divergence_, flux_, change_.pressure))
+          .iterations;
+  const std::span<const double> slope = residual_.forces().gradientOfChange(change_.pressure);
+  for (int c = 0; c < m.owned; ++c)
+    for (std::size_t i = 0; i < d_; ++i)
+      velocity[static_cast<std::size_t>(c) * fields_ + i] -=
+          response_[c] * inverse_[c] * slope[static_cast<std::size_t>(c) * d_ + i];
+  for (int face = 0; face < m.faces; ++face) change_.massFlux[face] = flux_[face] * m.area[face];
+  return change_;
 }
 
 FlowUpdate::Result FlowUpdate::advance(State& state, std::span<const double> inertia) {
   const Mesh& m = context_.mesh;
-  Result result;
-  assemble(state, inertia);
-  result.iterations = system_.solve(right_, change_, flowReduction, mostFlowIterations).iterations;
-  // What is made of the gas stays in the cell's balance of mass.
-  const FlowResidual::Rates& rates = residual_.rates();
-  std::ranges::copy(rates.mass, divergence_.begin());
-  for (int face = 0; face < m.faces; ++face) {
-    const double flux = state.massFlux[face];
-    if (m.low[face] < m.owned) divergence_[m.low[face]] += flux;
-    if (m.high[face] >= 0 && m.high[face] < m.owned) divergence_[m.high[face]] -= flux;
+  prepare(state, inertia);
+  const Change& change = find(left(state), true);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
+    for (std::size_t i = 0; i < d_; ++i) state.velocity[c * d_ + i] += change.velocity[c * fields_ + i];
+    if (state.swirls) state.swirl[c] += change.velocity[c * fields_ + d_];
   }
-  for (int c = 0; c < m.owned; ++c) divergence_[c] /= m.volume[c];
-  move(state, inertia);
-
-  std::ranges::fill(pressure_, 0.0);
-  result.pressureIterations = projection_.solve(1.0, faceResponse_, divergence_, flux_, pressure_).iterations;
-  const std::span<const double> slope = residual_.forces().gradientOfChange(pressure_);
-  for (int c = 0; c < m.owned; ++c)
-    for (std::size_t i = 0; i < d_; ++i) {
-      const std::size_t at = static_cast<std::size_t>(c) * d_ + i;
-      state.velocity[at] -= response_[c] / state.density[c] * slope[at];
-    }
-  for (int c = 0; c < m.cells; ++c) state.pressure[c] += pressure_[c];
-  for (int face = 0; face < m.faces; ++face) state.massFlux[face] = flux_[face] * m.area[face];
+  for (int c = 0; c < m.cells; ++c) state.pressure[c] += change.pressure[c];
+  for (int face = 0; face < m.faces; ++face) state.massFlux[face] += change.massFlux[face];
   state.updateHalo(context_.halo);
-  return result;
+  return change.iterations;
 }
 
 }  // namespace lampblack::flow

@@ -26,24 +26,50 @@ class FlowUpdate {
   // mass over the cell's pseudo-time.
   Result advance(State& state, std::span<const double> inertia);
 
-  void saveOrLoad(StateArchive& archive) { projection_.saveOrLoad(archive, "steady_pressure"); }
+  // The parts of advance(). Collective: the linear systems of a state,
+  void prepare(const State& state, std::span<const double> inertia);
+  // and what changes for what is left of the equations.
+  struct Left {
+    std::vector<double> momentum;  // N, a velocity (swirl the last) and owned cell
+    std::vector<double> mass;      // kg/s, owned cells
+    std::vector<double> massFlux;  // kg/s, a face
+  };
+  struct Change {
+    std::vector<double> velocity;  // m/s, a velocity (swirl the last) and cell
+    std::vector<double> pressure;  // Pa, a cell
+    std::vector<double> massFlux;  // kg/s, a face
+    Result iterations;
+  };
+  // Of the state that was evaluated; to be changed for find().
+  Left& left(const State& state);
+  // `exactly`: mass to round-off, as what stays in a state; else to a hundredth of what is left.
+  const Change& find(const Left& left, bool exactly);
+  [[nodiscard]] double scale(int cell) const { return system_.scale(cell); }
+
+  void saveOrLoad(StateArchive& archive) {
+    projection_.saveOrLoad(archive, "steady_pressure");
+    roughProjection_.saveOrLoad(archive, "steady_rough_pressure");
+  }
 
  private:
   void assemble(const State& state, std::span<const double> inertia);
-  // Velocities and mass fluxes under the pressure there is.
-  void move(State& state, std::span<const double> inertia);
+  void findResponses(const State& state, std::span<const double> inertia);
 
   const FlowContext& context_;
   FlowResidual& residual_;
   std::size_t d_, fields_;
   BlockSystem system_;
-  Projection projection_;
-  std::vector<double> right_, change_;
+  Projection projection_, roughProjection_;
+  Left left_;
+  Change change_;
   std::vector<double> response_;      // s, a cell: momentum per volume that a slope of the pressure of one brings
   std::vector<double> share_;         // a cell: of what a mass flux has not settled, that an iteration takes up
   std::vector<double> faceResponse_;  // s
+  std::vector<double> faceShare_;     // a face: the same of its own
+  std::vector<double> faceFlux_;      // kg/m3: mass flux per area that a velocity through the face brings
+  std::vector<double> inverse_;       // m3/kg, one over a cell's density
+  double through_ = 0.0;              // kg/s, the largest mass flux of the state
   std::vector<double> flux_;          // kg/m2/s, a face
-  std::vector<double> pressure_;      // Pa, change
   std::vector<double> divergence_;    // kg/m3/s
 };
 

@@ -13,8 +13,6 @@
 namespace lampblack::flow {
 namespace {
 
-// K, the unit of the temperature in the linear system, so that all of its fields are of the order of one.
-constexpr double kelvins = 1000.0;
 // What an iteration changes in a cell at most.
 constexpr double mostRise = 100.0;      // K
 constexpr double mostOfFraction = 0.1;  // mass fraction of any species
@@ -191,12 +189,24 @@ double GasUpdate::addLoad(const State& state, const LoadAsUnknown& load) {
 
 GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
                                      const std::optional<LoadAsUnknown>& load) {
-  const Mesh& m = context_.mesh;
+  prepare(state, residual, inertia);
+  const int iterations = solve(right_, change_, load ? loadedReduction : gasReduction, mostGasIterations);
+  const double loadChange = load ? addLoad(state, *load) : 0.0;
+  Result result = take(state, change_);
+  result.iterations = iterations;
+  result.loadChange = loadChange;
+  return result;
+}
+
+void GasUpdate::prepare(const State& state, const FlowResidual& residual, std::span<const double> inertia) {
   assemble(state, residual, inertia);
+  system_.factorise();
+}
+
+GasUpdate::Result GasUpdate::take(State& state, std::span<const double> change) {
+  const Mesh& m = context_.mesh;
+  if (change.data() != change_.data()) std::ranges::copy(change, change_.begin());
   Result result;
-  const double reduction = load ? loadedReduction : gasReduction;
-  result.iterations = system_.solve(right_, change_, reduction, mostGasIterations).iterations;
-  if (load) result.loadChange = addLoad(state, *load);
   inEachCell(m, [&](int cell) {
     const auto c = static_cast<std::size_t>(cell);
     shares_[c] = take(state, cell, result.largestRise);

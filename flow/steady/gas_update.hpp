@@ -37,6 +37,9 @@ void followGas(const FlowContext& context, State& state, int cell);
 
 class GasUpdate {
  public:
+  static constexpr double kelvins =
+      1000.0;  // K, the unit of the temperature in the linear system: all are of the order of one
+
   GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators);  // collective
 
   struct Result {
@@ -55,14 +58,24 @@ class GasUpdate {
   Result advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
                  const std::optional<LoadAsUnknown>& load = {});
 
+  // The parts of advance(). Collective: the linear system of a state,
+  void prepare(const State& state, const FlowResidual& residual, std::span<const double> inertia);
+  // its solution for any right side, which findLeft() gives of a cell; `change`: of all cells,
+  int solve(std::span<const double> right, std::span<double> change, double reduction, int mostIterations) {
+    return system_.solve(right, change, reduction, mostIterations).iterations;
+  }
+  // kg/s and, of the temperature, over its unit: what is left of the equations of a cell; `right`: n + 1 numbers.
+  void findLeft(const State& state, const FlowResidual& residual, std::size_t cell, double* right);
+  // and the change, of which a cell takes what it may.
+  Result take(State& state, std::span<const double> change);
+  [[nodiscard]] double scale(int cell) const { return system_.scale(cell); }
+
   // Of an owned cell, the share that the last advance() took of what the linear system gave.
   [[nodiscard]] std::span<const double> shares() const { return shares_; }
 
  private:
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
   void assembleBlock(const State& state, const FlowResidual& residual, int cell);
-  // kg/s and, of the temperature, over its unit: what is left of the equations of a cell; `right`: n + 1 numbers.
-  void findLeft(const State& state, const FlowResidual& residual, std::size_t cell, double* right);
   // What a load that is larger by one brings into the cells: the right side for the answer of the gas to it.
   void assembleLoad(const State& state, const LoadAsUnknown& load);
   // Changes also the load so that its condition holds for the change of all cells; the change of the load.

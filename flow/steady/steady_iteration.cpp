@@ -26,6 +26,12 @@ constexpr int carriedPasses = 3;
 // not where an iteration has them pass more than a cell.
 constexpr double mostCarriedCourant = 1.0;
 constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
+// Of Newton's linear systems; of their pseudo-time, which goes on growing; of what there was, what a step may leave:
+// after more iterations of the other kind follow, each time twice as many.
+constexpr double newtonReduction = 0.01;
+constexpr double mostNewtonGrowth = 10.0, mostNewtonCourant = 1e9;
+constexpr int mostPause = 1000;
+constexpr double enoughOfNewton = 0.5;
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 constexpr double growthAfterFailure = 1.2;
@@ -53,6 +59,7 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       carriedInertia_(inertia_.size()),
       haste_(inertia_.size(), 1.0) {
   if (control_) beside_.emplace(context, state, options.scheme, operators_);
+  if (!control_ && options.newton) newton_.emplace(context, state, residual_, gas_, flow_);
   if (!state.scalars.empty()) carried_.emplace(context, state, residual_, operators_);
   residual_.evaluate(state);
   measure_ = measure(state);
@@ -64,11 +71,22 @@ void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   double anew = isAnew_ ? 1.0 : 0.0;
   archive.shared("steady_is_anew", anew);
   isAnew_ = anew != 0.0;
+  const auto count = [&](const char* name, int& number) {
+    double value = number;
+    archive.shared(name, value);
+    number = static_cast<int>(value);
+  };
+  count("steady_newton_waits", waits_);
+  count("steady_newton_pause", pause_);
   mixing_.clear();
   flow_.saveOrLoad(archive);
   if (!archive.loading()) return;
   residual_.evaluate(state);
   measure_ = measure(state);
+}
+
+double SteadyIteration::flowCourant() const {
+  return std::clamp(courant_, options_.leastFlowCourant, options_.mostFlowCourant);
 }
 
 // Mass over the pseudo-time: of the gas in a cell that much of what flows through, and a tenth of what is conducted,
@@ -85,68 +103,7 @@ void SteadyIteration::setInertia(const State& state) {
   }
   flowInertia_ = inertia_;
   for (std::size_t c = 0; c < inertia_.size(); ++c) inertia_[c] /= courant_ * haste_[c];
-  for (double& value : flowInertia_) value /= std::clamp(courant_, options_.leastFlowCourant, options_.mostFlowCourant);
-}
-
-double SteadyIteration::ofCarried(const State& state, double through) const {
-  const FlowResidual::Rates& rates = residual_.rates();
-  const std::size_t n = state.scalars.size();
-  std::vector<double> sums(2 * n, 0.0), most(n, 0.0);
-  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
-    for (std::size_t s = 0; s < n; ++s) {
-      const std::size_t i = c * n + s;
-      const double perMass = state.carried[i] / state.density[c];
-      if (!state.scalars[s].isTransported) continue;
-      sums[s] += std::abs(rates.carried[i] - perMass * rates.mass[c]);
-      sums[n + s] += context_.mesh.volume[c] * std::max(rates.made.netOfCarried(i, state.carried), 0.0);
-      most[s] = std::max(most[s], std::abs(perMass));
-    }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(2 * n), MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
-  MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(n), MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
-  double sum = 0.0;
-  for (std::size_t s = 0; s < n; ++s)
-    if (const double size = through * most[s] + sums[n + s]; size > 0.0) sum += sums[s] / size;
-  return n > 0 ? sum / static_cast<double>(n) : 0.0;
-}
-
-double SteadyIteration::measure(const State& state) const {
-  const Mesh& m = context_.mesh;
-  const FlowResidual::Rates& rates = residual_.rates();
-  const auto n = static_cast<std::size_t>(state.species), d = static_cast<std::size_t>(state.dimension);
-  enum { Mass, Fluxes, Momentum, Heat, Species, Through, Equations };
-  std::array<double, Equations> sums{};
-  std::array<double, 3> ends{0.0, -1e300, -1e300};
-  for (int face = 0; face < m.faces; ++face) {
-    if (m.low[face] >= m.owned) continue;
-    sums[Fluxes] += std::abs(rates.massFlux[face]);
-    sums[Through] += std::abs(state.massFlux[face]);
-  }
-  std::vector<double> enthalpies(n);
-  for (int cell = 0; cell < m.owned; ++cell) {
-    const auto c = static_cast<std::size_t>(cell);
-    sums[Mass] += std::abs(rates.mass[c]);
-    double speed = 0.0;
-    for (std::size_t i = 0; i < d; ++i) {
-      sums[Momentum] += std::abs(rates.momentum[c * d + i]);
-      speed += std::abs(state.velocity[c * d + i]);
-    }
-    context_.thermo.speciesEnthalpies(state.temperature[c], enthalpies);
-    double heat = rates.enthalpy[c] - state.enthalpy[c] * rates.mass[c];
-    for (std::size_t k = 0; k < n; ++k) {
-      const double left = rates.species[c * n + k] - state.Y[c * n + k] * rates.mass[c];
-      heat -= enthalpies[k] * left;
-      sums[Species] += std::abs(left);
-    }
-    sums[Heat] += std::abs(heat) / residual_.properties().heatCapacity[c];
-    ends = {std::max(ends[0], speed), std::max(ends[1], state.temperature[c]),
-            std::max(ends[2], -state.temperature[c])};
-  }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), Equations, MPI_DOUBLE, MPI_SUM, m.comm);
-  MPI_Allreduce(MPI_IN_PLACE, ends.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
-  const double through = std::max(sums[Through], 1e-300);
-  return ofCarried(state, through) + (sums[Mass] + sums[Fluxes] + sums[Momentum] / std::max(ends[0], 1e-300) +
-                                      sums[Heat] / std::max(ends[1] + ends[2], 1e-3 * ends[1]) + sums[Species]) /
-                                         through;
+  for (double& value : flowInertia_) value /= flowCourant();
 }
 
 std::vector<double> SteadyIteration::unknownsOf(const State& state) const {
@@ -220,9 +177,17 @@ void SteadyIteration::accelerate(State& state) {
   state.updateHalo(context_.halo);
 }
 
+// By what the cells took of their last change.
+void SteadyIteration::hurry() {
+  for (std::size_t c = 0; c < haste_.size(); ++c) {
+    const double share = gas_.shares()[c];
+    haste_[c] = std::clamp(haste_[c] * (share < 1.0 ? std::max(share, mostSlowed) : catchesUp), leastHaste, 1.0);
+  }
+}
+
 void SteadyIteration::advanceCarried(State& state) {
-  const double slower = courant_ / std::min(courant_, mostCarriedCourant);
-  for (std::size_t c = 0; c < inertia_.size(); ++c) carriedInertia_[c] = slower * inertia_[c];
+  const double slower = flowCourant() / std::min(courant_, mostCarriedCourant);
+  for (std::size_t c = 0; c < inertia_.size(); ++c) carriedInertia_[c] = slower * flowInertia_[c];
   for (int pass = 0; pass < carriedPasses; ++pass) {
     residual_.evaluateCarried(state);
     carried_->advance(state, residual_, carriedInertia_);
@@ -243,10 +208,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
     outcome.gasIterations = gas.iterations;
     outcome.largestRise = gas.largestRise;
     outcome.limited = gas.limited;
-    for (std::size_t c = 0; c < haste_.size(); ++c) {
-      const double share = gas_.shares()[c];
-      haste_[c] = std::clamp(haste_[c] * (share < 1.0 ? std::max(share, mostSlowed) : catchesUp), leastHaste, 1.0);
-    }
+    hurry();
     for (int pass = 0; pass < flowPasses; ++pass) {
       residual_.evaluateFlow(state);
       const FlowUpdate::Result flow = flow_.advance(state, flowInertia_);
@@ -279,19 +241,69 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
   return outcome;
 }
 
+SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
+  Outcome outcome;
+  outcome.courant = courant_;
+  const double last = measure_;
+  try {
+    setInertia(state);
+    const NewtonKrylov::Result step = newton_->advance(state, inertia_, flowInertia_, newtonReduction);
+    keepMass(state, massOf(*before_));
+    outcome.newtonIterations = step.iterations;
+    outcome.largestRise = step.largestRise;
+    outcome.limited = step.limited;
+    hurry();
+    for (Operator* op : operators_) op->setDiffusivities(state);
+    state.updateHalo(context_.halo);
+    if (carried_) advanceCarried(state);
+    residual_.evaluate(state);
+    measure_ = outcome.measure = measure(state);
+  } catch (const NumericsError& error) {
+    outcome.why = error.what();
+    return outcome;
+  }
+  if (!(measure_ <= last)) return outcome;
+  if (measure_ > enoughOfNewton * last)
+    waitForNewton();
+  else
+    pause_ = leastPause;
+  outcome.taken = true;
+  isAnew_ = false;
+  mixing_.clear();
+  courant_ = std::min(courant_ * std::clamp(last / measure_, leastGrowth, mostNewtonGrowth), mostNewtonCourant);
+  return outcome;
+}
+
+void SteadyIteration::waitForNewton() {
+  waits_ = pause_;
+  pause_ = std::min(2 * pause_, mostPause);
+}
+
+void SteadyIteration::takeBack(State& state, double measure) {
+  state = *before_;
+  if (control_) control_->setLoad(state, loadBefore_);
+  residual_.evaluate(state);
+  measure_ = measure;
+}
+
 SteadyIteration::Outcome SteadyIteration::iterate(State& state, bool mayAccelerate) {
   before_ = state;
   if (control_) loadBefore_ = control_->load();
   const double last = measure_;
+  if (newton_ && mayAccelerate && last < options_.accelerated && --waits_ < 0) {
+    const Outcome outcome = attemptTogether(state);
+    if (outcome.taken) return outcome;
+    takeBack(state, last);
+    waitForNewton();
+  }
+  courant_ = std::min(courant_, options_.mostCourant);
   Outcome outcome = attempt(state, mayAccelerate);
   if (outcome.taken) return outcome;
-  state = *before_;
-  if (control_) control_->setLoad(state, loadBefore_);
+  takeBack(state, last);
   mixing_.clear();
   isAnew_ = true;
   courant_ = std::max(courant_ * afterFailure, leastCourant);
-  residual_.evaluate(state);
-  measure_ = outcome.measure = last;
+  outcome.measure = last;
   return outcome;
 }
 

@@ -1,7 +1,8 @@
 // Iterations that bring a flow to its steady state, where nothing is left of its equations (FlowResidual): implicit in
 // a pseudo-time of every cell's own, which grows as the residual falls (switched evolution relaxation, Mulder and van
 // Leer 1985; Kelley and Keyes 1998). In each iteration species and temperature change together (GasUpdate), then
-// velocities and pressure for the new density (FlowUpdate), then what is carried (CarriedUpdate). docs/theory/flow.md,
+// velocities and pressure for the new density (FlowUpdate), then what is carried (CarriedUpdate). Near the end gas and
+// flow change together, by Newton's method (NewtonKrylov). docs/theory/flow.md,
 // "The steady state".
 #pragma once
 
@@ -19,6 +20,7 @@
 #include "flow/steady/flow_update.hpp"
 #include "flow/steady/gas_update.hpp"
 #include "flow/steady/load_control.hpp"
+#include "flow/steady/newton_krylov.hpp"
 #include "numerics/anderson_mixing.hpp"
 
 namespace lampblack::flow {
@@ -33,8 +35,10 @@ class SteadyIteration {
     // move all of the mass that a new density moves; in a long one it is felt everywhere at once. Some flames come to
     // rest only with a least of one, others only with the most at all times.
     double leastFlowCourant = 1.0, mostFlowCourant = 5.0;
-    // Outcome::measure below which iterations are accelerated: of a flow whose flame stands where it will stand.
+    // Outcome::measure below which iterations are Newton's or, where those lead nowhere or a load is an unknown too,
+    // accelerated: of a flow whose flame stands where it will stand.
     double accelerated = 3e-4;
+    bool newton = true;
   };
 
   // Collective. `operators`: whose rates act in the cells; they have to live as long. The state is evaluated.
@@ -49,8 +53,9 @@ class SteadyIteration {
     double measure = 0.0;  // of what is left of all equations, of the state as it is now
     std::string why;       // it was not taken
     int gasIterations = 0, flowIterations = 0, pressureIterations = 0;  // of the linear solvers
-    double largestRise = 0.0;                                           // K, that the linear system asked for
-    std::int64_t limited = 0;                                           // cells where less than that was taken
+    int newtonIterations = 0;  // of that of gas and flow together; zero in an iteration that is none of Newton's
+    double largestRise = 0.0;  // K, that the linear system asked for
+    std::int64_t limited = 0;  // cells where less than that was taken
   };
   // Collective. One iteration; leaves the state as it was where it fails, and the next one tries less. `mayAccelerate`:
   // false where the flow is at rest but for species: what is a small difference of large rates, as of two species in
@@ -67,6 +72,10 @@ class SteadyIteration {
 
  private:
   Outcome attempt(State& state, bool mayAccelerate);
+  // The same by Newton's method.
+  Outcome attemptTogether(State& state);
+  void takeBack(State& state, double measure);
+  void waitForNewton();
   // Takes the best combination of the last iterations in place of the present.
   void accelerate(State& state);
   [[nodiscard]] double massOf(const State& state) const;  // kg
@@ -74,6 +83,8 @@ class SteadyIteration {
   [[nodiscard]] std::vector<double> unknownsOf(const State& state) const;
   [[nodiscard]] std::vector<double> weights(const State& state) const;
   void setInertia(const State& state);
+  void hurry();
+  [[nodiscard]] double flowCourant() const;
   void advanceCarried(State& state);
   // Of the state that was evaluated: what is left of all equations over what goes through the cells.
   [[nodiscard]] double measure(const State& state) const;
@@ -88,9 +99,12 @@ class SteadyIteration {
   GasUpdate gas_;
   std::optional<CarriedUpdate> carried_;  // where the flow carries something
   FlowUpdate flow_;
+  std::optional<NewtonKrylov> newton_;  // where no load is an unknown
   AndersonMixing mixing_;
   double courant_;
   bool isAnew_ = true;  // the first iteration, or the last has failed
+  static constexpr int leastPause = 5;
+  int waits_ = 0, pause_ = leastPause;  // iterations before Newton's method is tried again; of the next time
   double measure_ = 0.0;
   std::vector<double> inertia_, carriedInertia_, flowInertia_;  // kg/s, owned cells
   std::vector<double> haste_;                                   // owned cells: of the pseudo-time that others have

@@ -1,0 +1,262 @@
+#include "flow/steady/newton_krylov.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "flow/cell_errors.hpp"
+
+namespace lampblack::flow {
+namespace {
+
+constexpr int krylov = 60;
+constexpr double gasOfPreconditioner = 0.1;
+constexpr int mostOfPreconditioner = 1;  // more leave as many iterations around them
+constexpr double leastTypical = 1e-10;   // mass fraction: less is none
+constexpr double smallStep = 1e-7;       // of the unknowns' units, for differences
+
+NewtonKrylov* newtonOf(void* context) {
+  return static_cast<NewtonKrylov*>(context);
+}
+
+}  // namespace
+
+NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
+                           FlowUpdate& flow)
+    : context_(context),
+      residual_(residual),
+      gas_(gas),
+      flow_(flow),
+      width_(static_cast<std::size_t>(state.species) + 1),
+      velocities_(static_cast<std::size_t>(state.dimension) + (state.swirls ? 1 : 0)),
+      perCell_(width_ + velocities_ + 1),
+      faces_(static_cast<std::size_t>(context.mesh.faces)),
+      size_(static_cast<std::size_t>(context.mesh.owned) * perCell_ + faces_) {
+  const Mesh& m = context.mesh;
+  for (std::vector<double>* all : {&left_, &leftBeside_, &rows_, &units_}) all->resize(size_);
+  gasRight_.resize(static_cast<std::size_t>(m.owned) * width_);
+  gasChange_.resize(static_cast<std::size_t>(m.cells) * width_);
+  densityChange_.resize(static_cast<std::size_t>(m.cells));
+  const auto size = static_cast<PetscInt>(size_);
+  checkPetsc(MatCreateShell(m.comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE, this, matrix_.put()));
+  const auto product = [](Mat matrix, Vec x, Vec y) -> PetscErrorCode {
+    void* self = nullptr;
+    if (const PetscErrorCode code = MatShellGetContext(matrix, static_cast<void*>(&self)); code != 0) return code;
+    return newtonOf(self)->exceptions_.guard([&] { newtonOf(self)->multiply(x, y); });
+  };
+  PetscErrorCode (*const multiplies)(Mat, Vec, Vec) = product;
+  checkPetsc(MatShellSetOperation(matrix_.get(), MATOP_MULT, reinterpret_cast<void (*)()>(multiplies)));
+  checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
+  checkPetsc(KSPCreate(m.comm, solver_.put()));
+  checkPetsc(KSPSetType(solver_.get(), KSPFGMRES));
+  checkPetsc(KSPGMRESSetRestart(solver_.get(), krylov));
+  checkPetsc(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
+  PC preconditioner = nullptr;
+  checkPetsc(KSPGetPC(solver_.get(), &preconditioner));
+  checkPetsc(PCSetType(preconditioner, PCSHELL));
+  checkPetsc(PCShellSetContext(preconditioner, this));
+  const auto pass = [](PC pc, Vec x, Vec y) -> PetscErrorCode {
+    void* self = nullptr;
+    if (const PetscErrorCode code = PCShellGetContext(pc, static_cast<void*>(&self)); code != 0) return code;
+    return newtonOf(self)->exceptions_.guard([&] { newtonOf(self)->precondition(x, y); });
+  };
+  PetscErrorCode (*const passes)(PC, Vec, Vec) = pass;
+  checkPetsc(PCShellSetApply(preconditioner, passes));
+}
+
+// What is left of all equations of the state that was evaluated.
+void NewtonKrylov::find(const State& state, std::span<double> left) {
+  const Mesh& m = context_.mesh;
+  const FlowResidual::Rates& rates = residual_.rates();
+  const auto d = static_cast<std::size_t>(state.dimension);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
+    double* own = &left[c * perCell_];
+    gas_.findLeft(state, residual_, c, own);
+    for (std::size_t i = 0; i < d; ++i) own[width_ + i] = rates.momentum[c * d + i];
+    if (state.swirls) own[width_ + d] = rates.angularMomentum[c] / m.centre[c][0];
+    own[width_ + velocities_] = rates.mass[c];
+  }
+  std::ranges::copy(rates.massFlux, left.begin() + static_cast<std::ptrdiff_t>(size_ - faces_));
+}
+
+void NewtonKrylov::move(State& state, double step, std::span<const double> along) const {
+  const Mesh& m = context_.mesh;
+  const std::size_t n = width_ - 1;
+  const auto d = static_cast<std::size_t>(state.dimension);
+  inEachCell(m, [&](int cell) {
+    const auto c = static_cast<std::size_t>(cell);
+    const double* own = &along[c * perCell_];
+    for (std::size_t k = 0; k < n; ++k) state.Y[c * n + k] += step * own[k];
+    state.temperature[c] += step * GasUpdate::kelvins * own[n];
+    for (std::size_t i = 0; i < d; ++i) state.velocity[c * d + i] += step * own[width_ + i];
+    if (state.swirls) state.swirl[c] += step * own[width_ + d];
+    state.pressure[c] += step * own[width_ + velocities_];
+    followGas(context_, state, cell);
+  });
+  const std::span<const double> fluxes = along.last(faces_);
+  for (std::size_t f = 0; f < faces_; ++f) state.massFlux[f] += step * fluxes[f];
+  state.updateHalo(context_.halo);
+}
+
+// Of the equations: over what goes through all of the domain, of a species what of it goes through or is made, so that
+// traces count as much as others.
+void NewtonKrylov::findScales(const State& state) {
+  const Mesh& m = context_.mesh;
+  const auto d = static_cast<std::size_t>(state.dimension), owned = static_cast<std::size_t>(m.owned);
+  const std::size_t n = width_ - 1;
+  std::vector<double> sums(n + 1, 0.0), most(n + 3, -1e300);
+  enum { Speed, Hottest, Coldest };
+  for (int face = 0; face < m.faces; ++face)
+    if (m.low[face] < m.owned) sums[n] += std::abs(state.massFlux[face]);
+  std::vector<double> made(n);
+  for (std::size_t c = 0; c < owned; ++c) {
+    residual_.rates().made.ofSpecies(c, made);
+    for (std::size_t k = 0; k < n; ++k) {
+      sums[k] += m.volume[c] * std::max(made[k], 0.0);
+      most[3 + k] = std::max(most[3 + k], state.Y[c * n + k]);
+    }
+    for (std::size_t i = 0; i < d; ++i) most[Speed] = std::max(most[Speed], std::abs(state.velocity[c * d + i]));
+    most[Hottest] = std::max(most[Hottest], state.temperature[c]);
+    most[Coldest] = std::max(most[Coldest], -state.temperature[c]);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX, m.comm);
+  const double through = std::max(sums[n], 1e-300), speed = std::max(most[Speed], 1e-12);
+  std::vector<double> row(perCell_, 1.0 / (through * speed)), unit(perCell_, speed);
+  for (std::size_t k = 0; k < n; ++k) {
+    row[k] = 1.0 / (through * std::max(most[3 + k], leastTypical) + sums[k]);
+    unit[k] = 1.0;
+  }
+  unit[n] = 1.0;
+  row[n] = GasUpdate::kelvins / (through * std::max(most[Hottest] + most[Coldest], 1e-3 * most[Hottest]));
+  row.back() = 1.0 / through;
+  for (std::size_t c = 0; c < owned; ++c) {
+    std::ranges::copy(row, rows_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
+    unit.back() = state.density[c] * speed * speed;
+    std::ranges::copy(unit, units_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
+  }
+  std::fill(rows_.end() - static_cast<std::ptrdiff_t>(faces_), rows_.end(), 1.0 / through);
+  std::fill(units_.end() - static_cast<std::ptrdiff_t>(faces_), units_.end(), through / static_cast<double>(faces_));
+}
+
+// By the difference of what is left; in the pseudo-time.
+void NewtonKrylov::multiply(Vec x, Vec y) {
+  const PetscValues values(x);
+  const PetscMutableValues product(y);
+  const std::span<const double> along = values.get();
+  const std::span<double> to = product.get();
+  double most = 0.0;
+  for (std::size_t i = 0; i < size_; ++i) most = std::max(most, std::abs(along[i]) / units_[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+  if (!(most > 0.0)) {
+    std::ranges::fill(to, 0.0);
+    return;
+  }
+  const double step = smallStep / most;
+  State beside = *base_;
+  move(beside, step, along);
+  residual_.evaluate(beside);
+  find(beside, leftBeside_);
+  for (std::size_t i = 0; i < size_; ++i) to[i] = (left_[i] - leftBeside_[i]) / step;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
+    for (std::size_t i = c * perCell_; i < c * perCell_ + width_ + velocities_; ++i) to[i] += inertia_[c] * along[i];
+  for (std::size_t i = 0; i < size_; ++i) to[i] *= rows_[i];
+}
+
+// The gas by its own matrix, then the flow that follows: a lighter gas rises, and flows the faster through faces.
+void NewtonKrylov::precondition(Vec x, Vec y) {
+  const Mesh& m = context_.mesh;
+  const PetscValues values(x);
+  const PetscMutableValues found(y);
+  const std::span<const double> right = values.get();
+  const std::span<double> to = found.get();
+  const auto owned = static_cast<std::size_t>(m.owned);
+  const std::size_t n = width_ - 1;
+  const auto d = static_cast<std::size_t>(base_->dimension);
+  for (std::size_t c = 0; c < owned; ++c)
+    for (std::size_t k = 0; k < width_; ++k)
+      gasRight_[c * width_ + k] = right[c * perCell_ + k] / rows_[c * perCell_ + k];
+  gas_.solve(gasRight_, gasChange_, gasOfPreconditioner, mostOfPreconditioner);
+  const std::span<const double> weights = context_.thermo.molecularWeights();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(m.cells); ++c) {
+    const double *Y = &base_->Y[c * n], *change = &gasChange_[c * width_];
+    double moles = 0.0, more = 0.0;
+    for (std::size_t k = 0; k < n; ++k) {
+      moles += Y[k] / weights[k];
+      more += change[k] / weights[k];
+    }
+    densityChange_[c] = -base_->density[c] * (more / moles + GasUpdate::kelvins * change[n] / base_->temperature[c]);
+  }
+  FlowUpdate::Left& left = flow_.left(*base_);
+  for (std::size_t c = 0; c < owned; ++c) {
+    const double* row = &rows_[c * perCell_];
+    for (std::size_t i = 0; i < velocities_; ++i) {
+      left.momentum[c * velocities_ + i] = right[c * perCell_ + width_ + i] / row[width_ + i];
+      if (i < d) left.momentum[c * velocities_ + i] += m.volume[c] * densityChange_[c] * context_.gravity[i];
+    }
+    left.mass[c] = right[c * perCell_ + width_ + velocities_] / row[width_ + velocities_];
+  }
+  for (std::size_t f = 0; f < faces_; ++f) {
+    const auto low = static_cast<std::size_t>(m.low[f]);
+    const bool isInside = m.high[f] >= 0;
+    const double w = isInside ? m.lowWeight[f] : 1.0;
+    double change = w * densityChange_[low];
+    if (isInside) change += (1.0 - w) * densityChange_[static_cast<std::size_t>(m.high[f])];
+    const bool follows =
+        isInside || (context_.boundaryOf(static_cast<int>(f)).kind == BoundaryKind::Outlet && base_->massFlux[f] > 0.0);
+    left.massFlux[f] = right[size_ - faces_ + f] / rows_[size_ - faces_ + f];
+    if (follows) left.massFlux[f] += base_->massFlux[f] * change / faceDensity_[f];
+  }
+  const FlowUpdate::Change& change = flow_.find(left, false);
+  for (std::size_t c = 0; c < owned; ++c) {
+    double* own = &to[c * perCell_];
+    std::copy_n(&gasChange_[c * width_], width_, own);
+    for (std::size_t i = 0; i < velocities_; ++i) own[width_ + i] = change.velocity[c * velocities_ + i];
+    own[width_ + velocities_] = change.pressure[c];
+  }
+  std::ranges::copy(change.massFlux, to.end() - static_cast<std::ptrdiff_t>(faces_));
+}
+
+NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double> inertia,
+                                           std::span<const double> flowInertia, double reduction) {
+  const State base = state;
+  base_ = &base;
+  inertia_ = inertia;
+  gas_.prepare(state, residual_, inertia);
+  flow_.prepare(state, flowInertia);
+  faceDensity_ = residual_.faces().density;
+  findScales(state);
+  find(state, left_);
+  {
+    const PetscMutableValues values(rightSide_.get());
+    for (std::size_t i = 0; i < size_; ++i) values.get()[i] = rows_[i] * left_[i];
+  }
+  checkPetsc(KSPSetTolerances(solver_.get(), reduction, 1e-300, 1e10, krylov));
+  exceptions_.run([&] { return KSPSolve(solver_.get(), rightSide_.get(), solution_.get()); });
+  Result result;
+  PetscInt iterations = 0;
+  checkPetsc(KSPGetIterationNumber(solver_.get(), &iterations));
+  result.iterations = static_cast<int>(iterations);
+  double norm = 0.0, of = 0.0;
+  checkPetsc(KSPGetResidualNorm(solver_.get(), &norm));
+  checkPetsc(VecNorm(rightSide_.get(), NORM_2, &of));
+  result.reached = of > 0.0 ? norm / of : 0.0;
+  base_ = nullptr;
+
+  const PetscValues values(solution_.get());
+  const std::span<const double> change = values.get();
+  const auto d = static_cast<std::size_t>(state.dimension);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c) {
+    const double* own = &change[c * perCell_];
+    std::copy_n(own, width_, &gasChange_[c * width_]);
+    for (std::size_t i = 0; i < d; ++i) state.velocity[c * d + i] += own[width_ + i];
+    if (state.swirls) state.swirl[c] += own[width_ + d];
+    state.pressure[c] += own[width_ + velocities_];
+  }
+  for (std::size_t f = 0; f < faces_; ++f) state.massFlux[f] += change[size_ - faces_ + f];
+  const GasUpdate::Result taken = gas_.take(state, gasChange_);
+  result.largestRise = taken.largestRise;
+  result.limited = taken.limited;
+  return result;
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,59 @@
+// Newton's method for the steady state of a flow whose flame stands: gas, velocities, pressure and mass fluxes
+// together. The linear systems are solved by flexible GMRES (Saad 1993), the matrix known by differences of
+// FlowResidual alone (Knoll and Keyes 2004), preconditioned by what an iteration does one after the other (GasUpdate,
+// FlowUpdate) with the matrices of the state that the step begins with. docs/theory/flow.md, "Iterations".
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "core/petsc.hpp"
+#include "core/petsc_callbacks.hpp"
+#include "flow/equations/flow_residual.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/state.hpp"
+#include "flow/steady/flow_update.hpp"
+#include "flow/steady/gas_update.hpp"
+
+namespace lampblack::flow {
+
+class NewtonKrylov {
+ public:
+  // Collective. All have to live as long.
+  NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
+               FlowUpdate& flow);
+
+  struct Result {
+    int iterations = 0;        // of the linear solver
+    double largestRise = 0.0;  // K, of any cell before it was limited
+    std::int64_t limited = 0;  // cells whose change was limited
+    double reached = 0.0;      // what is left of the linear system
+  };
+  // Collective. The residual is of the state; inertia (kg/s, owned cells): mass over the cell's pseudo-time; that of
+  // the preconditioner's velocities. The residual is of some other state then.
+  Result advance(State& state, std::span<const double> inertia, std::span<const double> flowInertia, double reduction);
+
+ private:
+  void find(const State& state, std::span<double> left);
+  void move(State& state, double step, std::span<const double> along) const;
+  void findScales(const State& state);
+  void multiply(Vec x, Vec y);
+  void precondition(Vec x, Vec y);
+
+  const FlowContext& context_;
+  FlowResidual& residual_;
+  GasUpdate& gas_;
+  FlowUpdate& flow_;
+  std::size_t width_, velocities_, perCell_, faces_, size_;
+  const State* base_ = nullptr;
+  std::span<const double> inertia_;
+  std::vector<double> left_, leftBeside_, rows_, units_;
+  std::vector<double> gasRight_, gasChange_, densityChange_, faceDensity_;
+  PetscExceptions exceptions_;
+  PetscMatrix matrix_;
+  PetscVector solution_, rightSide_;
+  PetscSolver solver_;
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,94 @@
+// Newton's method for gas and flow together.
+#include "flow/steady/newton_krylov.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "flow/models/reaction_operator.hpp"
+#include "flow/steady/steady_iteration.hpp"
+#include "flow/stepping/transport_operator.hpp"
+#include "flow_fixture.hpp"
+#include "tests/every_module.hpp"
+
+namespace lampblack::test {
+namespace {
+
+// Warm gas that rises in a channel with a wall, into which other gas flows.
+struct WarmChannel {
+  WarmChannel() {
+    Gas& gas = Gas::hydrogen();
+    air = gas.massFractions("O2: 0.21, N2: 0.79");
+    const std::vector<double> moist = gas.massFractions("O2: 0.2, N2: 0.7, H2O: 0.1");
+    Side wall = side(BoundaryKind::Wall, 0, true);
+    wall.condition.slip = false;
+    MeshSpec spec;
+    spec.geometry = Geometry::Planar;
+    spec.vertices = {uniformAxis(0.006, 4), uniformAxis(0.012, 6), {}};
+    std::vector<BoundaryCondition> conditions;
+    for (const Side& s :
+         {side(BoundaryKind::Symmetry, 0, false), wall, opening(BoundaryKind::Inlet, 1, false, 0.3, 400.0, moist),
+          opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, air)}) {
+      spec.patches.push_back(s.patch);
+      conditions.push_back(s.condition);
+    }
+    box.emplace(spec, conditions, std::nullopt, MPI_COMM_WORLD);
+    box->context.gravity = {0.0, -9.81, 0.0};
+    state.emplace(box->state([&](const auto&) { return Box::Local{{0.0, 0.3}, 350.0, air}; }));
+    transport.emplace(box->context, *state);
+    transport->initialise(*state, 1e-4);
+  }
+  std::vector<double> air;
+  std::optional<Box> box;
+  std::optional<State> state;
+  std::optional<TransportOperator> transport;
+};
+
+// Beside the steady state, what a step leaves is of the square of the disturbance that it began with.
+TEST(NewtonSteps, LeaveTheSquare) {
+  WarmChannel channel;
+  Box& b = *channel.box;
+  State& found = *channel.state;
+  const std::vector<Operator*> operators{&*channel.transport};
+  SteadyIteration iteration(b.context, found, {}, operators);
+  double measure = 1.0;
+  int count = 0, newtons = 0;
+  for (; count < 100 && measure > 1e-12; ++count) {
+    const SteadyIteration::Outcome outcome = iteration.iterate(found);
+    measure = outcome.measure;
+    newtons += outcome.newtonIterations > 0;
+  }
+  report(fmt::format("{} iterations, {} of Newton's, left {:.2g}", count, newtons, measure));
+  EXPECT_LE(measure, 1e-12);
+  EXPECT_GE(newtons, 3);
+  FlowResidual residual(b.context, found, VelocityScheme::Limited, operators);
+  GasUpdate gas(b.context, found, operators);
+  FlowUpdate flow(b.context, found, residual);
+  NewtonKrylov newton(b.context, found, residual, gas, flow);
+  const std::vector<double> none(at(b.mesh.owned), 0.0);
+  std::vector<double> slow(none);
+  for (int face = 0; face < b.mesh.faces; ++face)
+    for (const int cell : {b.mesh.low[face], b.mesh.high[face]})
+      if (cell >= 0 && cell < b.mesh.owned) slow[at(cell)] += 0.1 * std::abs(found.massFlux[face]);
+  const auto left = [&](double size) {
+    State state = found;
+    for (int c = 0; c < b.mesh.owned; ++c) {
+      const double wave = size * std::sin(400.0 * b.mesh.centre[c][1] + 200.0 * b.mesh.centre[c][0]);
+      state.temperature[at(c)] *= 1.0 + wave;
+      for (int i = 0; i < 2; ++i) state.velocity[at(2 * c + i)] *= 1.0 + wave;
+      followGas(b.context, state, c);
+    }
+    state.updateHalo(b.halo);
+    residual.evaluate(state);
+    const NewtonKrylov::Result result = newton.advance(state, none, slow, 1e-8);
+    report(fmt::format("{} iterations, to {:.2g}", result.iterations, result.reached));
+    return largest(b.mesh, [&](int c) { return std::abs(state.temperature[at(c)] - found.temperature[at(c)]); });
+  };
+  const double whole = left(4e-3), half = left(2e-3);
+  report(fmt::format("off by {:.3g} and {:.3g} K", whole, half));
+  EXPECT_GT(whole / half, 3.0);
+  EXPECT_LT(whole, 0.02);
+}
+
+}  // namespace
+}  // namespace lampblack::test
