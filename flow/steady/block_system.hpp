@@ -40,8 +40,6 @@ class BlockSystem {
   void addInertia(int cell, double inertia);
   // Collective. What solve() needs of the system as it is. NumericsError where a block is singular.
   void factorise();
-  // One over the mean of a cell's diagonal, of the last factorise().
-  [[nodiscard]] double scale(int cell) const { return scale_[static_cast<std::size_t>(cell)]; }
 
   struct Result {
     int iterations = 0;

@@ -44,7 +44,6 @@ class FlowUpdate {
   Left& left(const State& state);
   // `exactly`: mass to round-off, as what stays in a state; else to a hundredth of what is left.
   const Change& find(const Left& left, bool exactly);
-  [[nodiscard]] double scale(int cell) const { return system_.scale(cell); }
 
   void saveOrLoad(StateArchive& archive) {
     projection_.saveOrLoad(archive, "steady_pressure");

@@ -68,7 +68,6 @@ class GasUpdate {
   void findLeft(const State& state, const FlowResidual& residual, std::size_t cell, double* right);
   // and the change, of which a cell takes what it may.
   Result take(State& state, std::span<const double> change);
-  [[nodiscard]] double scale(int cell) const { return system_.scale(cell); }
 
   // Of an owned cell, the share that the last advance() took of what the linear system gave.
   [[nodiscard]] std::span<const double> shares() const { return shares_; }

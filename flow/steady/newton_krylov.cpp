@@ -1,6 +1,7 @@
 #include "flow/steady/newton_krylov.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "flow/cell_errors.hpp"
@@ -97,41 +98,31 @@ void NewtonKrylov::move(State& state, double step, std::span<const double> along
   state.updateHalo(context_.halo);
 }
 
-// Of the equations: over what goes through all of the domain, of a species what of it goes through or is made, so that
-// traces count as much as others.
+// Of the equations: over what goes through all of the domain, as the measure of an iteration has them. (Over what there
+// is of each species a trace in one cell would be the whole norm, and the system solved for it alone.)
 void NewtonKrylov::findScales(const State& state) {
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(state.dimension), owned = static_cast<std::size_t>(m.owned);
-  const std::size_t n = width_ - 1;
-  std::vector<double> sums(n + 1, 0.0), most(n + 3, -1e300);
-  enum { Speed, Hottest, Coldest };
+  double through = 0.0;
   for (int face = 0; face < m.faces; ++face)
-    if (m.low[face] < m.owned) sums[n] += std::abs(state.massFlux[face]);
-  std::vector<double> made(n);
+    if (m.low[face] < m.owned) through += std::abs(state.massFlux[face]);
+  std::array<double, 3> most{1e-12, -1e300, -1e300};  // m/s, K, -K
   for (std::size_t c = 0; c < owned; ++c) {
-    residual_.rates().made.ofSpecies(c, made);
-    for (std::size_t k = 0; k < n; ++k) {
-      sums[k] += m.volume[c] * std::max(made[k], 0.0);
-      most[3 + k] = std::max(most[3 + k], state.Y[c * n + k]);
-    }
-    for (std::size_t i = 0; i < d; ++i) most[Speed] = std::max(most[Speed], std::abs(state.velocity[c * d + i]));
-    most[Hottest] = std::max(most[Hottest], state.temperature[c]);
-    most[Coldest] = std::max(most[Coldest], -state.temperature[c]);
+    for (std::size_t i = 0; i < d; ++i) most[0] = std::max(most[0], std::abs(state.velocity[c * d + i]));
+    most[1] = std::max(most[1], state.temperature[c]);
+    most[2] = std::max(most[2], -state.temperature[c]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
-  MPI_Allreduce(MPI_IN_PLACE, most.data(), static_cast<int>(most.size()), MPI_DOUBLE, MPI_MAX, m.comm);
-  const double through = std::max(sums[n], 1e-300), speed = std::max(most[Speed], 1e-12);
-  std::vector<double> row(perCell_, 1.0 / (through * speed)), unit(perCell_, speed);
-  for (std::size_t k = 0; k < n; ++k) {
-    row[k] = 1.0 / (through * std::max(most[3 + k], leastTypical) + sums[k]);
-    unit[k] = 1.0;
-  }
-  unit[n] = 1.0;
-  row[n] = GasUpdate::kelvins / (through * std::max(most[Hottest] + most[Coldest], 1e-3 * most[Hottest]));
-  row.back() = 1.0 / through;
+  MPI_Allreduce(MPI_IN_PLACE, &through, 1, MPI_DOUBLE, MPI_SUM, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, most.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
+  through = std::max(through, 1e-300);
+  const double speed = most[0], range = std::max(most[1] + most[2], 1e-3 * most[1]);
+  std::vector<double> row(perCell_, 1.0 / through), unit(perCell_, 1.0);
+  row[width_ - 1] = GasUpdate::kelvins / (through * range);
+  std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(width_), velocities_, 1.0 / (through * speed));
+  std::fill_n(unit.begin() + static_cast<std::ptrdiff_t>(width_), velocities_, speed);
   for (std::size_t c = 0; c < owned; ++c) {
-    std::ranges::copy(row, rows_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
     unit.back() = state.density[c] * speed * speed;
+    std::ranges::copy(row, rows_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
     std::ranges::copy(unit, units_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
   }
   std::fill(rows_.end() - static_cast<std::ptrdiff_t>(faces_), rows_.end(), 1.0 / through);
