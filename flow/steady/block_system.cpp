@@ -116,7 +116,7 @@ void BlockSystem::factorise() {
       const Neighbour other = neighbour(c, mesh_.faceOfCell[i]);
       if (other.cell > c)
         for (std::size_t k = 0; k < n; ++k) own[k] += other.comes[k];
-      if (other.cell < 0 || other.cell > c) continue;
+      if (other.cell < 0 || other.cell >= c) continue;
       const float* answer = &inverse_[static_cast<std::size_t>(other.cell) * n * n];
       const double* all = &behind[static_cast<std::size_t>(other.cell) * n];
       for (std::size_t k = 0; k < n; ++k) {
@@ -171,7 +171,7 @@ void BlockSystem::multiply(Vec x, Vec y) {
 void BlockSystem::addNeighbours(int cell, std::span<const double> values, bool before) {
   for (int i = mesh_.faceStart[cell]; i < mesh_.faceStart[cell + 1]; ++i) {
     const Neighbour other = neighbour(cell, mesh_.faceOfCell[i]);
-    if (other.cell < 0 || (other.cell < cell) != before) continue;
+    if (other.cell < 0 || other.cell == cell || (other.cell < cell) != before) continue;
     const double* value = &values[static_cast<std::size_t>(other.cell) * fields_];
     for (std::size_t k = 0; k < fields_; ++k) row_[k] += other.comes[k] * value[k];
   }

@@ -99,7 +99,7 @@ class SteadyIteration {
   GasUpdate gas_;
   std::optional<CarriedUpdate> carried_;  // where the flow carries something
   FlowUpdate flow_;
-  std::optional<NewtonKrylov> newton_;  // where no load is an unknown
+  std::optional<NewtonKrylov> newton_;  // where no load is an unknown and nothing eddies
   AndersonMixing mixing_;
   double courant_;
   bool isAnew_ = true;  // the first iteration, or the last has failed
