@@ -69,9 +69,13 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
 void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   archive.shared("steady_courant", courant_);
   archive.cells("steady_haste", haste_, 1);
-  double anew = isAnew_ ? 1.0 : 0.0;
-  archive.shared("steady_is_anew", anew);
-  isAnew_ = anew != 0.0;
+  const auto either = [&](const char* name, bool& is) {
+    double value = is ? 1.0 : 0.0;
+    archive.shared(name, value);
+    is = value != 0.0;
+  };
+  either("steady_is_anew", isAnew_);
+  either("steady_is_limited", isLimited_);
   const auto count = [&](const char* name, int& number) {
     double value = number;
     archive.shared(name, value);
@@ -246,14 +250,14 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
   Outcome outcome;
   outcome.courant = courant_;
   const double last = measure_;
+  NewtonKrylov::Result step;
   try {
     setInertia(state);
-    const NewtonKrylov::Result step = newton_->advance(state, inertia_, flowInertia_, newtonReduction);
+    step = newton_->advance(state, inertia_, flowInertia_, newtonReduction);
     keepMass(state, massOf(*before_));
     outcome.newtonIterations = step.iterations;
     outcome.largestRise = step.largestRise;
     outcome.limited = step.limited;
-    hurry();
     for (Operator* op : operators_) op->setDiffusivities(state);
     state.updateHalo(context_.halo);
     if (carried_) advanceCarried(state);
@@ -263,7 +267,8 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
     outcome.why = error.what();
     return outcome;
   }
-  if (!(measure_ <= last)) return outcome;
+  if (!(measure_ <= last) || step.limited > 0) return outcome;
+  hurry();
   if (measure_ > enoughOfNewton * last)
     waitForNewton();
   else
@@ -291,7 +296,7 @@ SteadyIteration::Outcome SteadyIteration::iterate(State& state, bool mayAccelera
   before_ = state;
   if (control_) loadBefore_ = control_->load();
   const double last = measure_;
-  if (newton_ && mayAccelerate && last < options_.accelerated && --waits_ < 0) {
+  if (newton_ && mayAccelerate && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
     const Outcome outcome = attemptTogether(state);
     if (outcome.taken) return outcome;
     takeBack(state, last);
@@ -299,6 +304,7 @@ SteadyIteration::Outcome SteadyIteration::iterate(State& state, bool mayAccelera
   }
   courant_ = std::min(courant_, options_.mostCourant);
   Outcome outcome = attempt(state, mayAccelerate);
+  isLimited_ = !outcome.taken || outcome.limited > 0;
   if (outcome.taken) return outcome;
   takeBack(state, last);
   mixing_.clear();

@@ -103,6 +103,7 @@ class SteadyIteration {
   AndersonMixing mixing_;
   double courant_;
   bool isAnew_ = true;  // the first iteration, or the last has failed
+  bool isLimited_ = true;  // cells of the last iteration could not take all of their change, or it has failed
   static constexpr int leastPause = 5;
   int waits_ = 0, pause_ = leastPause;  // iterations before Newton's method is tried again; of the next time
   double measure_ = 0.0;
