@@ -210,8 +210,9 @@ void readRooms(const Deck& deck, FlowCase& flowCase, EnsembleOperator::Options& 
   options.particles = deck.integer<std::size_t>("particles.number");
   options.particlesAtEdges = deck.integer<std::size_t>(key);
   if (options.particlesAtEdges > options.particles) throw deck.error(key, "no more than 'particles.number'");
-  if (!deck.has("particles.method") || deck.choice("particles.method") != "pairs")
-    flowCase.notes.push_back(key + ": only particles.method pairs has it, here all cells have 'particles.number'");
+  if (deck.has("particles.method") && deck.choice("particles.method") == "pairs") return;
+  options.particlesAtEdges = 0;
+  flowCase.notes.push_back(key + ": only 'particles.method: pairs' has it, here all cells have 'particles.number'");
 }
 
 void readEnsembles(const Deck& deck, FlowCase& flowCase) {

@@ -30,7 +30,7 @@ struct SweepArguments {
   std::string study;
   std::vector<std::string> overrides, settings;
   std::string folder, part;
-  int jobs = 0, ranksOfJob = 1;
+  int jobs = 0, ranksOfJob = 0;  // of each job; zero: as many as a run has
   bool force = false, check = false, sideBySide = false, collect = false;
 };
 
@@ -51,10 +51,10 @@ bool hasEnded(const fs::path& file) {
 }
 
 // The folder of the study: nobody else's, and not that of a single run either.
-RunFolder prepareFolder(MPI_Comm comm, const fs::path& folder, bool force) {
+RunFolder prepareFolder(MPI_Comm comm, const fs::path& folder, bool force, bool collect = false) {
   const fs::path last = folder / "study.json";
   collectively(comm, [&] {
-    if (rankOf(comm) == 0 && !force && hasEnded(last))
+    if (rankOf(comm) == 0 && !force && !collect && hasEnded(last))
       throw InputError(
           fmt::format("{}: this folder holds a study already. Choose another with --out DIR, or replace it "
                       "with --force",
@@ -147,20 +147,30 @@ void raiseFailures(MPI_Comm comm, const std::vector<RunOutcome>& outcomes, const
 
 // The parts' own command lines, and who hands them in.
 void writeJobs(MPI_Comm comm, const SweepStudy& study, const SweepArguments& arguments) {
+  const int perRun = study.ranksPerRun.value_or(1), ranks = arguments.ranksOfJob > 0 ? arguments.ranksOfJob : perRun;
+  if (study.runs.empty())
+    throw InputError("--jobs: this study has no runs but its convergence study; give the command without --jobs");
+  if (ranks % perRun != 0)
+    throw InputError(
+        fmt::format("--ranks: {} ranks of a job cannot be shared out to runs of {} (ranks_per_run)", ranks, perRun));
   const fs::path folder = arguments.folder;
   const RunFolder locked = prepareFolder(comm, folder, arguments.force);
-  JobsOptions options{arguments.study, folder, {}, arguments.jobs, arguments.ranksOfJob};
+  JobsOptions options{arguments.study, folder, {}, arguments.jobs, ranks};
   const auto add = [&](const char* flag, const std::vector<std::string>& values) {
     for (const std::string& value : values) options.words.insert(options.words.end(), {flag, value});
   };
   add("--set", arguments.settings);
   add("--study-set", arguments.overrides);
   const fs::path script = folder / "jobs.slurm";
-  writeFileAtomically(script, jobsScript(study, options));
-  fmt::print(
-      "{} runs to do; hand them to SLURM by\n  sbatch {}\nand give this command with --collect in place of --jobs for "
-      "the table when they have ended\n",
-      study.runs.size(), script.string());
+  collectively(comm, [&] {
+    if (rankOf(comm) != 0) return;
+    writeFileAtomically(script, jobsScript(study, options));
+    fmt::print(
+        "{} runs to do; hand them to SLURM by\n  sbatch {}\nand give this command with --collect in place of --jobs "
+        "for the table when they have ended{}\n",
+        study.runs.size(), script.string(),
+        study.convergence ? "; without either it makes the convergence study as well" : "");
+  });
 }
 
 void runPart(MPI_Comm comm, const SweepStudy& part, const SweepArguments& arguments) {
@@ -173,6 +183,10 @@ void refuseTogether(const SweepArguments& arguments) {
   const bool isPart = !arguments.part.empty();
   if ((arguments.jobs > 0) + isPart + arguments.collect + arguments.check > 1)
     throw InputError("--check, --jobs, --part, --collect: one of them at a time is expected");
+  if (arguments.jobs > 0 && arguments.force)
+    throw InputError(
+        "--jobs with --force would take the finished runs as they are; remove the folder, or choose another with "
+        "--out");
   if (arguments.collect && arguments.force)
     throw InputError("--collect runs nothing, and --force would replace the runs; leave one of them out");
 }
@@ -198,7 +212,7 @@ void sweep(const SweepArguments& arguments) {
   }
   if (arguments.jobs > 0) return writeJobs(comm, study, arguments);
   const fs::path folder = arguments.folder;
-  const RunFolder locked = prepareFolder(comm, folder, arguments.force);
+  const RunFolder locked = prepareFolder(comm, folder, arguments.force, arguments.collect);
   const std::vector<RunOutcome> outcomes = runStudy(comm, study, folder, {arguments.force, arguments.collect});
   collectively(comm, [&] {
     if (rankOf(comm) == 0) writeTables(study, outcomes, folder);
@@ -233,7 +247,7 @@ void addSweepCommand(CLI::App& app, Command& command, int& ranks) {
   subcommand->add_flag("--collect", arguments->collect, "Run nothing: the table of what the jobs have left.");
   subcommand->callback([arguments, &command, &ranks] {
     if (arguments->sideBySide) arguments->overrides.emplace_back("ranks_per_run=1");
-    if (arguments->jobs > 0) arguments->ranksOfJob = std::max(1, std::exchange(ranks, 0));
+    if (arguments->jobs > 0) arguments->ranksOfJob = std::exchange(ranks, 0);
     if (arguments->sideBySide && arguments->jobs == 0 && ranks == 0 && !startedByLauncher()) ranks = processors();
     command = {[arguments] { sweep(*arguments); }, true};
   });

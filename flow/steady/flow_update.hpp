@@ -42,7 +42,7 @@ class FlowUpdate {
   };
   // Of the state that was evaluated; to be changed for find().
   Left& left(const State& state);
-  // `exactly`: mass to round-off, as what stays in a state; else to a hundredth of what is left.
+  // `exactly`: mass to round-off, as what stays in a state; else to a thousandth of the largest change of a flow.
   const Change& find(const Left& left, bool exactly);
 
   void saveOrLoad(StateArchive& archive) {

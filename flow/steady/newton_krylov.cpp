@@ -103,18 +103,22 @@ void NewtonKrylov::move(State& state, double step, std::span<const double> along
 void NewtonKrylov::findScales(const State& state) {
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(state.dimension), owned = static_cast<std::size_t>(m.owned);
-  double through = 0.0;
+  std::array<double, 2> sums{};  // kg/s, and how many faces
   for (int face = 0; face < m.faces; ++face)
-    if (m.low[face] < m.owned) through += std::abs(state.massFlux[face]);
+    if (m.low[face] < m.owned) {
+      sums[0] += std::abs(state.massFlux[face]);
+      sums[1] += 1.0;
+    }
   std::array<double, 3> most{1e-12, -1e300, -1e300};  // m/s, K, -K
   for (std::size_t c = 0; c < owned; ++c) {
     for (std::size_t i = 0; i < d; ++i) most[0] = std::max(most[0], std::abs(state.velocity[c * d + i]));
+    if (state.swirls) most[0] = std::max(most[0], std::abs(state.swirl[c]));
     most[1] = std::max(most[1], state.temperature[c]);
     most[2] = std::max(most[2], -state.temperature[c]);
   }
-  MPI_Allreduce(MPI_IN_PLACE, &through, 1, MPI_DOUBLE, MPI_SUM, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, most.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
-  through = std::max(through, 1e-300);
+  const double through = std::max(sums[0], 1e-300);
   const double speed = most[0], range = std::max(most[1] + most[2], 1e-3 * most[1]);
   std::vector<double> row(perCell_, 1.0 / through), unit(perCell_, 1.0);
   row[width_ - 1] = GasUpdate::kelvins / (through * range);
@@ -126,7 +130,7 @@ void NewtonKrylov::findScales(const State& state) {
     std::ranges::copy(unit, units_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
   }
   std::fill(rows_.end() - static_cast<std::ptrdiff_t>(faces_), rows_.end(), 1.0 / through);
-  std::fill(units_.end() - static_cast<std::ptrdiff_t>(faces_), units_.end(), through / static_cast<double>(faces_));
+  std::fill(units_.end() - static_cast<std::ptrdiff_t>(faces_), units_.end(), through / sums[1]);
 }
 
 // By the difference of what is left; in the pseudo-time.

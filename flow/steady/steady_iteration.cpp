@@ -59,8 +59,10 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       carriedInertia_(inertia_.size()),
       haste_(inertia_.size(), 1.0) {
   if (control_) beside_.emplace(context, state, options.scheme, operators_);
-  // What is carried follows: of eddies, which move all else, that is no step of Newton's.
-  if (!control_ && state.eddyViscosity.empty() && options.newton) newton_.emplace(context, state, residual_, gas_, flow_);
+  // What is carried follows: of eddies, which move all else, that is no step of Newton's; nor is one after which the
+  // pressure of a closed vessel moves.
+  if (!control_ && state.eddyViscosity.empty() && !context.isClosed() && options.newton)
+    newton_.emplace(context, state, residual_, gas_, flow_);
   if (!state.scalars.empty()) carried_.emplace(context, state, residual_, operators_);
   residual_.evaluate(state);
   measure_ = measure(state);

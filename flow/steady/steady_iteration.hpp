@@ -99,10 +99,10 @@ class SteadyIteration {
   GasUpdate gas_;
   std::optional<CarriedUpdate> carried_;  // where the flow carries something
   FlowUpdate flow_;
-  std::optional<NewtonKrylov> newton_;  // where no load is an unknown and nothing eddies
+  std::optional<NewtonKrylov> newton_;  // where no load or pressure of a vessel is an unknown and nothing eddies
   AndersonMixing mixing_;
   double courant_;
-  bool isAnew_ = true;  // the first iteration, or the last has failed
+  bool isAnew_ = true;     // the first iteration, or the last has failed
   bool isLimited_ = true;  // cells of the last iteration could not take all of their change, or it has failed
   static constexpr int leastPause = 5;
   int waits_ = 0, pause_ = leastPause;  // iterations before Newton's method is tried again; of the next time

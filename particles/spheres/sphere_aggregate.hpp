@@ -51,10 +51,10 @@ class SphereAggregate {
   // centres to the distances of their necks, all behind a neck with it, and sets the centre of mass to zero.
   std::vector<AggregateSphere>& change() { return spheres_; }
   void place();
-  // Spheres that are due become one with their neighbour, at the centre of mass of both; the necks of both with others
-  // keep their areas. Due are the two of a neck as wide as `widest` of the smaller radius, and a sphere without a free
-  // surface, with the neighbour of its widest neck. Returns how many; `followed`, where given, is set to where that
-  // sphere is now.
+  // Spheres that are due become one with their neighbour, at the mean of both centres by volume; the necks of both with
+  // others keep their areas. Due are the two of a neck as wide as `widest` of the smaller radius, and a sphere without
+  // a free surface, with the neighbour of its widest neck. Returns how many; `followed`, where given, is set to where
+  // that sphere is now.
   std::size_t mergeDue(std::size_t* followed = nullptr);
   static constexpr double widest = 0.95;
 

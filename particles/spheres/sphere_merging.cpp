@@ -27,8 +27,9 @@ void SphereAggregate::merge(std::size_t k) {
     if (c == i || s.parent == i) necks.push_back(s.neck);
   }
   one.radius = radiusOfVolume(volume, necks, std::max(one.radius, gone.radius));
-  // Too little for its necks: as wide as the widest, which is due then.
-  if (!(one.radius > 0)) one.radius = std::sqrt(*std::ranges::max_element(necks));
+  // Too little for its necks: hardly wider than the widest, which is due then.
+  constexpr double hardlyWider = 1 + 1e-9;
+  if (!(one.radius > 0)) one.radius = hardlyWider * std::sqrt(*std::ranges::max_element(necks));
 }
 
 std::size_t SphereAggregate::widestNeckOf(std::size_t i) const {

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double wellKnown = 0.05;   // of a radius: narrower necks need no relative accuracy
 constexpr double pastWidest = 1e-4;  // by how much of a radius a neck may overshoot that at which spheres merge
+constexpr double atOnce = 1e-9;      // of the time that is left: spheres with a shorter time of sintering merge
 
 }  // namespace
 
@@ -99,12 +100,26 @@ bool SphereSintering::isPastMerging(std::span<const double> state) const {
   return false;
 }
 
+// Nuclei far below the size at which a solid becomes liquid sinter by decades faster than any step: whether any merge.
+bool SphereSintering::mergeAtOnce(SphereAggregate& aggregate, double shortest) const {
+  bool isDue = false;
+  for (std::size_t k = 1; k < aggregate.count(); ++k) {
+    AggregateSphere& s = aggregate.change()[k];
+    const double smaller = std::min(s.radius, aggregate.spheres()[s.parent].radius);
+    if (law_.time(temperature_, 2 * smaller) >= shortest) continue;
+    s.neck = SphereAggregate::widest * SphereAggregate::widest * smaller * smaller;
+    isDue = true;
+  }
+  return isDue && aggregate.mergeDue() > 0;
+}
+
 void SphereSintering::advance(SphereAggregate& aggregate, double temperature, double time) {
   if (!law_.active() || !(time > 0)) return;
   aggregate_ = &aggregate;
   temperature_ = temperature;
   double step = 0;
   for (bool isNew = true; time > 0 && aggregate.count() > 1;) {
+    if (isNew && mergeAtOnce(aggregate, atOnce * time)) continue;
     const std::size_t n = aggregate.count();
     if (isNew) {
       for (std::vector<double>* v : {&radii_, &volumes_, &slopes_, &necks_}) v->resize(n);
@@ -131,7 +146,8 @@ void SphereSintering::advance(SphereAggregate& aggregate, double temperature, do
     if (!step_.step(f, h, trial_, tolerance_, smallest_) || !setRadii(trial_) || isPastMerging(trial_)) {
       for (std::size_t i = 0; i < n; ++i) radii_[i] = aggregate.spheres()[i].radius;
       step = 0.5 * h;
-      if (!(step > 1e-15 * time) || !(step > 0)) throw NumericsError("sintering of an aggregate: the step vanished");
+      if (!(step > 1e-15 * time) || !(step > 0))
+        throw NumericsError("sintering of an aggregate: its steps vanish; a larger 'sintering.tolerance' may help");
       continue;
     }
     ++steps_;

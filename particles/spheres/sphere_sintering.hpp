@@ -33,6 +33,7 @@ class SphereSintering {
  private:
   void rates(std::span<const double> state, std::vector<double>& to);
   bool setRadii(std::span<const double> state);
+  bool mergeAtOnce(SphereAggregate& aggregate, double shortest) const;  // s
   [[nodiscard]] bool isPastMerging(std::span<const double> state) const;
 
   SinteringLaw law_;

@@ -376,7 +376,7 @@ TEST_F(SteadyIterations, AreCombinedOnlyWhereTheyMay) {
     State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 320.0, lean}; });
     TransportOperator transport(b.context, state);
     transport.initialise(state, 1e-4);
-    SteadyIteration iteration(b.context, state, {.accelerated = accelerated}, {&transport});
+    SteadyIteration iteration(b.context, state, {.accelerated = accelerated, .newton = false}, {&transport});
     for (int i = 0; i < 6; ++i) iteration.iterate(state, mayAccelerate);
     return state.temperature;
   };

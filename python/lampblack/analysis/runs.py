@@ -129,7 +129,7 @@ class Runs:
                 code = sweep.wait()
             except BaseException:
                 sweep.terminate()  # it keeps what has ended
-                sweep.stdout.close()
+                log.writelines(sweep.stdout)  # until it has ended: a closed pipe would kill it
                 sweep.wait()
                 raise
             errors.seek(0)

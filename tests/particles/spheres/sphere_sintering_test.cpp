@@ -159,6 +159,23 @@ TEST(SphereSintering, DoesNotDependOnHowTimeIsCut) {
     EXPECT_NEAR(length(difference(whole.spheres()[i].centre, cut.spheres()[i].centre)), 0, 1e-5);
 }
 
+// Far below the critical diameter the time of sintering is 1e-140 s: no step is as short.
+TEST(SphereSintering, NucleiMergeAtOnce) {
+  SinteringLaw silica{SinteringMechanism::viscousFlow, 1.1e-14, 1.2e5, 4.4e-9};
+  const double big = 1e-8, small = 5e-10;
+  SphereAggregate four(std::vector<AggregateSphere>{{{0, 0, 0}, big, 0, 0, 0},
+                                                    {{2 * big, 0, 0}, big, 0, 0, 0},
+                                                    {{0, big + small, 0}, small, 0, 0, 0},
+                                                    {{0, big + 3 * small, 0}, small, 0, 0, 2}});
+  const double volume = four.volume();
+  SphereSintering(silica).advance(four, 1500, 1e-5);
+  ASSERT_EQ(four.count(), 2);
+  EXPECT_NEAR(four.volume() / volume, 1, 1e-10);
+  EXPECT_NEAR(four.distance(1) / (2 * big), 1, 1e-3);
+  EXPECT_LT(four.spheres()[1].neck, 0.01 * big * big);
+  EXPECT_TRUE(std::isfinite(four.reach()));
+}
+
 TEST(SphereSintering, NothingWithoutALawOrTime) {
   SphereAggregate two = test::pairOfSpheres(1, 1, 0.3);
   SphereSintering none({}), some(unitLaw(SinteringMechanism::viscousFlow));
