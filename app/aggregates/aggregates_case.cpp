@@ -241,6 +241,8 @@ AggregatesCase readAggregatesCase(const Deck& deck) {
   const bool hasGas = deck.has("gas"), sinters = deck.has("sintering") || isSilica;
   options.sintering = readSinteringLaw(deck, "sintering", shipped.sintering);
   requirePrefactor(deck, "sintering", options.sintering);
+  if (deck.has("sintering") && !options.sintering.active() && !deck.has("sintering.mechanism"))
+    throw deck.error("sintering", "a material that is not silica needs the key 'mechanism'");
   if (deck.has("sintering")) options.sinteringTolerance = deck.number("sintering.tolerance");
   const std::string by = deck.choice("build.by");
   made.times = readTimes(deck);

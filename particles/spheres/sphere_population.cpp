@@ -6,6 +6,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "particles/gas/soot_gas.hpp"
+#include "particles/population/engine/coagulating_sample.hpp"
 #include "particles/population/engine/event_loop.hpp"
 #include "particles/population/engine/jumps.hpp"
 #include "particles/population/engine/split_step.hpp"
@@ -28,30 +29,13 @@ const SpherePopulationOptions& checked(const SpherePopulationOptions& options) {
   return options;
 }
 
-PopulationModel modelOf(const SpherePopulationOptions& options) {
-  PopulationModel model;
-  if (options.coagulation) {
-    model.coagulation = options.kernel;  // of some gas, until there is the right one
-    model.coagulation->gas = {1500, constants::oneAtmosphere, 0.2, 5e-5, 0.028};
-  }
-  return model;
-}
-
-MonteCarloOptions monteCarloOf(const SpherePopulationOptions& options) {
-  MonteCarloOptions monteCarlo;
-  monteCarlo.method = MonteCarloMethod::dsmc;
-  monteCarlo.particles = options.particles;
-  monteCarlo.expectedNumber = options.fullAt;
-  return monteCarlo;
-}
-
 }  // namespace
 
 SpherePopulation::SpherePopulation(const SpherePopulationOptions& options)
     : options_(checked(options)),
       type_(options.density, options.size, options.fractalDimension),
       random_(options.seed, options.owner, sphereStream),
-      method_(type_, modelOf(options), InitialPopulation{}, monteCarloOf(options), random_),
+      method_(type_, modelOfSample(options), InitialPopulation{}, monteCarloOfSample(options), random_),
       sintering_(options.sintering, options.sinteringTolerance) {}
 
 void SpherePopulation::fill(std::span<const double> radii, double number) {

@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "particles/gas/soot_gas.hpp"
+#include "particles/population/engine/coagulating_sample.hpp"
 #include "particles/population/engine/event_loop.hpp"
 #include "particles/population/engine/jumps.hpp"
 #include "particles/population/engine/split_step.hpp"
@@ -36,30 +37,13 @@ const TreeOptions& checkedTrees(const TreeOptions& options) {
   return options;
 }
 
-PopulationModel modelOfTrees(const TreeOptions& options) {
-  PopulationModel model;
-  if (options.coagulation) {
-    model.coagulation = options.kernel;  // of some gas, until there is the right one
-    model.coagulation->gas = {1500, constants::oneAtmosphere, 0.2, 5e-5, 0.028};
-  }
-  return model;
-}
-
-MonteCarloOptions monteCarloOfTrees(const TreeOptions& options) {
-  MonteCarloOptions monteCarlo;
-  monteCarlo.method = MonteCarloMethod::dsmc;
-  monteCarlo.particles = options.particles;
-  monteCarlo.expectedNumber = options.fullAt;
-  return monteCarlo;
-}
-
 }  // namespace
 
 TreePopulation::TreePopulation(const TreeOptions& options)
     : options_(checkedTrees(options)),
       type_(options.material, options.size, options.shape),
       random_(options.seed, options.owner, treeStream),
-      method_(type_, modelOfTrees(options), InitialPopulation{}, monteCarloOfTrees(options), random_),
+      method_(type_, modelOfSample(options), InitialPopulation{}, monteCarloOfSample(options), random_),
       sintering_(type_, options.sinteringTolerance),
       reactions_(reactionsOf(type_)) {
   type_.setSintering([this](Tree& tree, double time) {
