@@ -2,7 +2,7 @@
 
 A template or an inline function of a forbidden module needs no library, so that linking alone does not find it. What a module
 may know is what its CMakeLists.txt links; the page's column "knows" has to say the same. The order of the folders of
-chemistry, particles and flow is that of the page.
+chemistry, particles, flow and app is that of the page, and folders beside each other never include each other in a circle.
 
 Usage: arrows_test.py [ROOT]
 """
@@ -34,7 +34,7 @@ def modules_on_page(page, modules):
 
 
 # Modules with folders that the page lists, each building on those before it.
-ORDERED = ("chemistry", "particles", "flow")
+ORDERED = ("chemistry", "particles", "flow", "app")
 
 
 def folders_on_page(page, module):
@@ -74,6 +74,26 @@ def wrong_arrows(root):
     return wrong
 
 
+def circles(root, module):
+    """Circles of folders that stand beside each other in one folder, each as the names in it."""
+    leads_to = {}  # (folder, one inside) -> others inside that it includes from
+    for file, target in includes(root, module):
+        a, b = file.parent.parts, tuple(target.split("/")[:-1])
+        depth = next((i for i, (x, y) in enumerate(zip(a, b)) if x != y), None)
+        if depth:  # they part below a common folder
+            leads_to.setdefault((a[:depth], a[depth]), set()).add(b[depth])
+    found = set()
+    for (parent, start) in leads_to:
+        reached, open_ = set(), [start]
+        while open_:
+            new = leads_to.get((parent, open_.pop()), set()) - reached
+            reached |= new
+            open_ += new
+        if start in reached:
+            found.add(("/".join(parent), start))
+    return sorted(found)
+
+
 def toy(root):
     """A source tree of two modules with one include against each kind of arrow, and some that may be."""
     files = {
@@ -84,6 +104,10 @@ def toy(root):
         "core/d.hpp": '  #  include <chemistry/thermo/b.hpp>',
         "chemistry/thermo/b.hpp": '#include "core/a.hpp"\n#include "chemistry/mechanism/n.hpp"',
         "chemistry/mechanism/n.hpp": '#include "chemistry/thermo/b.hpp"',
+        "core/one/a.hpp": '#include "core/two/a.hpp"',
+        "core/two/a.hpp": '#include "core/three/a.hpp"\n#include "core/a.hpp"',
+        "core/three/a.hpp": '#include "core/one/a.hpp"\n#include "core/four/a.hpp"',
+        "core/four/a.hpp": "",
         "docs/architecture.md": "| `core/` | MPI | errors |\n| `chemistry/` | `core` | gas |\n\n"
                                 "| `chemistry/mechanism/` | x |\n| `chemistry/thermo/` | y |\n",
     }
@@ -98,6 +122,7 @@ def check_the_checker():
         toy(root)
         found = [line.split(":")[0] for line in wrong_arrows(root)]
         assert sorted(found) == ["chemistry/mechanism/n.hpp", "core/a.hpp", "core/c.hpp", "core/d.hpp"], found
+        assert circles(root, "core") == [("core", "one"), ("core", "three"), ("core", "two")], circles(root, "core")
         page = root / "docs/architecture.md"
         page.write_text(page.read_text().replace("| MPI |", "| MPI, `chemistry` |"))
         assert any("says that core knows ['chemistry']" in line for line in wrong_arrows(root))
@@ -108,6 +133,8 @@ def main():
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parents[1]
     assert len(modules_linked(root)) >= 6, "the modules are not where this test looks for them"
     wrong = wrong_arrows(root)
+    for module in modules_linked(root):
+        wrong += [f"{parent}/{folder} is in a circle of folders that include each other" for parent, folder in circles(root, module)]
     for line in wrong:
         print(line)
     if wrong:

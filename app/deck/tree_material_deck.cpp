@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "app/deck/fragmentation_deck.hpp"
+#include "app/deck/gas_input.hpp"
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/sintering_deck.hpp"
 #include "app/deck/soot_deck.hpp"
-#include "app/tools/gas_input.hpp"
 
 namespace lampblack::app {
 namespace {

@@ -1,5 +1,5 @@
 // What decks of aggregates of spheres become, and what is refused.
-#include "app/aggregates/aggregates_case.hpp"
+#include "app/problems/aggregates/aggregates_case.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -7,8 +7,8 @@
 #include <cmath>
 #include <fstream>
 
-#include "app/aggregates/aggregates_output.hpp"
-#include "app/aggregates/aggregates_repeat.hpp"
+#include "app/problems/aggregates/aggregates_output.hpp"
+#include "app/problems/aggregates/aggregates_repeat.hpp"
 #include "core/errors.hpp"
 #include "particles/trees/tree_material.hpp"
 #include "tests/messages.hpp"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/flow/flow_case.hpp"
+#include "app/problems/flow/flow_case.hpp"
 #include "coupling/carried_particles.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/models/carried_operator.hpp"

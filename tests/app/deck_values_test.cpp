@@ -2,8 +2,8 @@
 #include <string>
 #include <vector>
 
-#include "app/flame1d/flame_case.hpp"
-#include "app/reactor/reactor_case.hpp"
+#include "app/problems/flame/flame_case.hpp"
+#include "app/problems/reactor/reactor_case.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/modules.hpp"
 #include "particles/ensemble/soot_ensemble.hpp"

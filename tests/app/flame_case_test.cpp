@@ -1,12 +1,12 @@
 // What flame decks become: streams in SI, configurations, an earlier flame; and what is refused.
-#include "app/flame1d/flame_case.hpp"
+#include "app/problems/flame/flame_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "app/run/problem.hpp"
+#include "app/shell/problem.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "tests/every_module.hpp"

@@ -1,5 +1,5 @@
 // A flame in a results file: what was written is read to the last bit; what is no flame is refused.
-#include "app/flame1d/flame_file.hpp"
+#include "app/problems/flame/flame_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "app/flame1d/flame_stochastic_deck.hpp"
+#include "app/problems/flame/flame_stochastic_deck.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "app/flame1d/flame_case.hpp"
+#include "app/problems/flame/flame_case.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"

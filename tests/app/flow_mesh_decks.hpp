@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "app/flow/flow_case_parts.hpp"
+#include "app/problems/flow/flow_case_parts.hpp"
 #include "tests/every_module.hpp"
 #include "tests/source_folder.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <fstream>
 
-#include "app/flow/flow_checkpoint.hpp"
-#include "app/flow/flow_mesh.hpp"
+#include "app/problems/flow/flow_checkpoint.hpp"
+#include "app/problems/flow/flow_mesh.hpp"
 #include "core/modules.hpp"
 #include "tests/app/flow_mesh_decks.hpp"
 #include "tests/every_module.hpp"

@@ -1,12 +1,12 @@
 // Decks that ask for meshes of every kind get them, and are told what is wrong with them.
-#include "app/flow/flow_mesh.hpp"
+#include "app/problems/flow/flow_mesh.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "app/flow/flow_checkpoint.hpp"
+#include "app/problems/flow/flow_checkpoint.hpp"
 #include "core/modules.hpp"
 #include "tests/app/flow_mesh_decks.hpp"
 #include "tests/every_module.hpp"

@@ -1,5 +1,5 @@
 // The mesh as the results file gets it, and the history's rows and columns.
-#include "app/flow/flow_output.hpp"
+#include "app/problems/flow/flow_output.hpp"
 
 #include <algorithm>
 #include <map>

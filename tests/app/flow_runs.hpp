@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/flow/flow_loop.hpp"
+#include "app/problems/flow/flow_loop.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/run/problem.hpp"
+#include "app/shell/problem.hpp"
 #include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "tests/every_module.hpp"

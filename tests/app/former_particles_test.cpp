@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "app/run/problem.hpp"
+#include "app/shell/problem.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "io/deck.hpp"

@@ -1,4 +1,4 @@
-#include "app/tools/gas_report.hpp"
+#include "app/shell/tools/gas_report.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

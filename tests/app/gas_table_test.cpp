@@ -1,9 +1,9 @@
 // A table of a gas over time: which columns count, in which units, and what is no such table.
-#include "app/prescribed_gas/gas_table.hpp"
+#include "app/problems/prescribed_gas/gas_table.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/prescribed_gas/prescribed_gas_case.hpp"
+#include "app/problems/prescribed_gas/prescribed_gas_case.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "particles/ensemble/soot_ensemble.hpp"

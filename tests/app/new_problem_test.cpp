@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "app/run/problem.hpp"
+#include "app/shell/problem.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/messages.hpp"

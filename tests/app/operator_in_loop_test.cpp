@@ -1,7 +1,7 @@
 // What the loop of a flow does for any operator: datasets of its own, tables of regions, and to hold the others.
 #include <algorithm>
 
-#include "app/flow/flow_loop.hpp"
+#include "app/problems/flow/flow_loop.hpp"
 #include "core/modules.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"

@@ -1,5 +1,5 @@
 // What decks of molecules become, and what is refused.
-#include "app/pah/pah_case.hpp"
+#include "app/problems/pah/pah_case.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

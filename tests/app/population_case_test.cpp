@@ -1,5 +1,5 @@
 // What population balance decks become: every choice of every key, and which of them have an exact solution.
-#include "app/population_balance/population_case.hpp"
+#include "app/problems/population/population_case.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/population_balance/population_statistics.hpp"
+#include "app/problems/population/population_statistics.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "particles/population/exact_solutions/initial_distribution.hpp"

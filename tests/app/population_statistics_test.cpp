@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "app/population_balance/population_accumulator.hpp"
+#include "app/problems/population/population_accumulator.hpp"
 #include "tests/every_module.hpp"
 
 namespace lampblack::app {

@@ -1,5 +1,5 @@
 // The problems as a table: what holds for the decks of all of them.
-#include "app/run/problem.hpp"
+#include "app/shell/problem.hpp"
 
 #include <filesystem>
 #include <string>

@@ -30,7 +30,7 @@
 #include <thread>
 #include <vector>
 
-#include "app/run/command_line.hpp"
+#include "app/shell/command_line.hpp"
 #include "core/parallel_session.hpp"
 #include "core/stop_request.hpp"
 

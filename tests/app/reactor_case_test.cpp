@@ -1,5 +1,5 @@
 // What reactor decks become: mixtures, flows in balance, the shipped cases.
-#include "app/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_case.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "app/deck/gas_input.hpp"
 #include "app/deck/temperature_input.hpp"
-#include "app/run/problem.hpp"
-#include "app/tools/gas_input.hpp"
+#include "app/shell/problem.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numeric>
 
-#include "app/flow/flow_loop.hpp"
+#include "app/problems/flow/flow_loop.hpp"
 #include "core/modules.hpp"
 #include "io/checkpoint_folder.hpp"
 #include "tests/app/app_fixture.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "app/flame1d/flame_case.hpp"
-#include "app/run/problem.hpp"
+#include "app/problems/flame/flame_case.hpp"
+#include "app/shell/problem.hpp"
 #include "core/modules.hpp"
 #include "flow/flame/flame_fields.hpp"
 #include "flow/flame/flame_solver.hpp"

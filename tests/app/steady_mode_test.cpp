@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "app/flow/coarser_meshes.hpp"
+#include "app/problems/flow/coarser_meshes.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "flow/models/radiation.hpp"

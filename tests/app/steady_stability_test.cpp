@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "app/flow/disturbed_flow.hpp"
-#include "app/flow/flow_mesh.hpp"
+#include "app/problems/flow/disturbed_flow.hpp"
+#include "app/problems/flow/flow_mesh.hpp"
 #include "core/modules.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/flow_runs.hpp"

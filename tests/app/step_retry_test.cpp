@@ -6,7 +6,7 @@
 #include <map>
 #include <optional>
 
-#include "app/flow/flow_loop.hpp"
+#include "app/problems/flow/flow_loop.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "flow/field_registry.hpp"

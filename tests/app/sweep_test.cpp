@@ -4,10 +4,10 @@
 
 #include <cmath>
 
-#include "app/population_balance/convergence_study.hpp"
-#include "app/study/sweep_jobs.hpp"
-#include "app/study/sweep_study.hpp"
-#include "app/study/sweep_table.hpp"
+#include "app/shell/study/convergence_study.hpp"
+#include "app/shell/study/sweep_jobs.hpp"
+#include "app/shell/study/sweep_study.hpp"
+#include "app/shell/study/sweep_table.hpp"
 #include "core/modules.hpp"
 
 namespace lampblack::app {

@@ -1,5 +1,5 @@
 // Ensembles along streamlines do not depend on which rank marches them: the same bits on any number of ranks.
-#include "app/flow/trajectories.hpp"
+#include "app/problems/flow/trajectories.hpp"
 
 #include <gmock/gmock.h>
 #include <hdf5.h>
@@ -7,9 +7,9 @@
 #include <map>
 #include <memory>
 
-#include "app/flow/flow_mesh.hpp"
-#include "app/flow/flow_output.hpp"
-#include "app/prescribed_gas/gas_table.hpp"
+#include "app/problems/flow/flow_mesh.hpp"
+#include "app/problems/flow/flow_output.hpp"
+#include "app/problems/prescribed_gas/gas_table.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "coupling/given_gas.hpp"

@@ -8,7 +8,7 @@
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/population_deck.hpp"
 #include "app/deck/soot_deck.hpp"
-#include "app/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_case.hpp"
 #include "tests/flow/flame/streams.hpp"
 #include "tests/messages.hpp"
 

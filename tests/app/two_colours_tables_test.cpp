@@ -3,8 +3,8 @@
 
 #include <numeric>
 
-#include "app/reactor/reactor_case.hpp"
-#include "app/reactor/reactor_driver.hpp"
+#include "app/problems/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_driver.hpp"
 #include "core/modules.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/coupling/two_colours.hpp"

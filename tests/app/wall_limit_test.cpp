@@ -1,5 +1,5 @@
 // When a run stops for its wall time.
-#include "app/flow/wall_limit.hpp"
+#include "app/problems/flow/wall_limit.hpp"
 
 #include <gtest/gtest.h>
 

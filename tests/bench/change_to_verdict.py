@@ -14,7 +14,7 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ("core/least_squares.cpp", "chemistry/mechanism/rate_reader.cpp", "chemistry/kinetics/batch_kinetics.cpp",
            "particles/trees/tree_sintering.cpp", "particles/stochastic/particle_rows.hpp", "flow/boundaries/gas_variation.cpp",
-           "coupling/block_statistics.cpp", "io/gmsh_stream.cpp", "app/flow/flow_case.cpp")
+           "coupling/block_statistics.cpp", "io/gmsh_stream.cpp", "app/problems/flow/flow_case.cpp")
 
 
 def seconds(*command: str) -> float:

@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "app/flow/flow_case.hpp"
+#include "app/problems/flow/flow_case.hpp"
 #include "chemistry/reactor/reactor.hpp"
 #include "core/halo_exchange.hpp"
 #include "core/mesh.hpp"

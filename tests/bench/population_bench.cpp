@@ -2,7 +2,7 @@
 // number of particles, and the cases of Wang (2025) for which it gives times (200 repeats, 2000 particles).
 #include <benchmark/benchmark.h>
 
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 #include "tests/every_module.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 #include "tests/bench/processor_time.hpp"
 #include "tests/every_module.hpp"
 

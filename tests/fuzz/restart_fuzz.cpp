@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "app/flame1d/flame_file.hpp"
+#include "app/problems/flame/flame_file.hpp"
 #include "core/errors.hpp"
 #include "tests/every_module.hpp"
 #include "tests/scratch.hpp"

@@ -14,7 +14,7 @@
 #include "flow/flow_context.hpp"
 #include "flow/models/combustion/cell_mixing.hpp"
 #include "flow/models/combustion/chemical_time.hpp"
-#include "flow/models/combustion/eddies.hpp"
+#include "flow/models/combustion/mixing_times.hpp"
 #include "flow/models/turbulence/turbulence_operator.hpp"
 #include "flow/operator.hpp"
 

@@ -16,7 +16,7 @@
 #include "flow/boundaries/wall_law.hpp"
 #include "flow/discretisation/velocity_gradient.hpp"
 #include "flow/flow_context.hpp"
-#include "flow/models/combustion/eddies.hpp"
+#include "flow/models/turbulence/eddies.hpp"
 #include "flow/models/turbulence/turbulence_model.hpp"
 #include "flow/operator.hpp"
 #include "flow/peak.hpp"

@@ -12,7 +12,7 @@
 #include "core/modules.hpp"
 #include "core/random.hpp"
 #include "particles/population/model/nucleation_schedule.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 
 namespace lampblack::particles {
 

@@ -21,7 +21,7 @@
 #include "core/modules.hpp"
 #include "particles/population/model/particle_type.hpp"
 #include "particles/population/model/population_model.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 
 namespace lampblack::particles {
 

@@ -16,7 +16,7 @@
 #include "particles/population/engine/nucleation_births.hpp"
 #include "particles/population/engine/split_step.hpp"
 #include "particles/population/gelation_error.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 
 namespace lampblack::particles {
 

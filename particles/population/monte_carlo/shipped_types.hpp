@@ -6,7 +6,7 @@
 #include "particles/population/model/fractal_aggregate.hpp"
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/model/surface_volume.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 
 namespace lampblack::particles {
 

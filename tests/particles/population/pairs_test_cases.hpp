@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 #include "tests/every_module.hpp"
 #include "tests/particles/statistics.hpp"
 

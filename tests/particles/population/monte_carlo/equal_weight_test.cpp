@@ -8,7 +8,7 @@
 #include "../../statistics.hpp"
 #include "core/modules.hpp"
 #include "particles/population/gelation_error.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 
 namespace lampblack::particles {
 namespace {

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "core/modules.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 #include "same_law.hpp"
 
 namespace lampblack::particles {

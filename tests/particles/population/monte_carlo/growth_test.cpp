@@ -8,7 +8,7 @@
 #include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 #include "same_law.hpp"
 
 namespace lampblack::particles {

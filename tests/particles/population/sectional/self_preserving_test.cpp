@@ -9,7 +9,7 @@
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 #include "particles/population/sectional/sectional_solver.hpp"
 #include "tests/particles/population/sectional/sectional_fixtures.hpp"
 #include "tests/particles/statistics.hpp"

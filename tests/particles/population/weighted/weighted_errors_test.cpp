@@ -5,7 +5,7 @@
 #include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "particles/population/gelation_error.hpp"
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 
 namespace lampblack::particles {
 namespace {

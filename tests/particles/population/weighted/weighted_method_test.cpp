@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "particles/population/monte_carlo/monte_carlo_options.hpp"
 #include "particles/population/monte_carlo/weighted_solver.hpp"
+#include "particles/population/monte_carlo_options.hpp"
 #include "tests/every_module.hpp"
 #include "tests/particles/statistics.hpp"
 

@@ -1,0 +1,101 @@
+#include "app/problems/aggregates/aggregates_gas.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "core/text_file.hpp"
+#include "coupling/reactor_particles.hpp"
+#include "io/csv.hpp"
+#include "io/table_column.hpp"
+
+namespace lampblack::app {
+namespace {
+
+constexpr double airWeight = 0.02897;  // kg/mol
+
+void readColumns(const TextTable& table, AggregatesGas& gas) {
+  struct Known {
+    const char* name;
+    units::Dimension dimension;
+    std::vector<double>* values;
+    double above, atLeast;
+  };
+  constexpr double any = -std::numeric_limits<double>::infinity();
+  const Known known[] = {{"time", units::time, &gas.time, any, any},
+                         {"temperature", units::temperature, &gas.temperature, 0, 0},
+                         {"pressure", units::pressure, &gas.pressure, 0, 0},
+                         {"births", units::ratePerVolume, &gas.births, any, 0},
+                         {"growth", units::velocity, &gas.growth, any, 0}};
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    const auto [name, unit] = nameAndUnit(table.columns[column]);
+    const auto* one = std::ranges::find(known, name, [](const Known& k) { return std::string(k.name); });
+    if (one == std::end(known))
+      throw InputError(
+          fmt::format("the column '{}' has no meaning here; there are time, temperature, pressure, births "
+                      "and growth",
+                      name));
+    if (!one->values->empty()) throw InputError(fmt::format("two columns are called '{}'", name));
+    const TableColumn reader(name, unit, one->dimension);
+    for (std::size_t row = 0; row < table.rows.size(); ++row) {
+      const double value = reader.read(table.rows[row][column], table.lines[row]);
+      if (!(value > one->above) || !(value >= one->atLeast))
+        throw InputError(fmt::format("line {}: '{}' has to be {} zero", table.lines[row], name,
+                                     one->above == 0 ? "above" : "at least"));
+      one->values->push_back(value);
+    }
+  }
+  for (const Known& one : known) {
+    const bool isNeeded = one.values != &gas.births && one.values != &gas.growth;
+    if (one.values->empty() && isNeeded) throw InputError(fmt::format("expected a column '{}'", one.name));
+    if (one.values->empty()) one.values->assign(table.rows.size(), 0);
+  }
+  for (std::size_t row = 1; row < gas.time.size(); ++row)
+    if (!(gas.time[row] > gas.time[row - 1]))
+      throw InputError(fmt::format("line {}: times have to rise", table.lines[row]));
+}
+
+}  // namespace
+
+double AggregatesGas::valueAt(const std::vector<double>& values, double when) const {
+  const auto k = static_cast<std::size_t>(std::ranges::upper_bound(time, when) - time.begin());
+  if (k == 0) return values.front();
+  if (k == time.size()) return values.back();
+  const double part = (when - time[k - 1]) / (time[k] - time[k - 1]);
+  return values[k - 1] + part * (values[k] - values[k - 1]);
+}
+
+double AggregatesGas::nextChange(double when) const {
+  const auto next = std::ranges::upper_bound(time, when);
+  return next == time.end() ? std::numeric_limits<double>::infinity() : *next;
+}
+
+CarrierGas AggregatesGas::at(double when) const {
+  CarrierGas gas;
+  gas.temperature = valueAt(temperature, when);
+  gas.pressure = valueAt(pressure, when);
+  gas.meanMolecularWeight = airWeight;
+  gas.density = gas.pressure * airWeight / (constants::gasConstant * gas.temperature);
+  gas.viscosity = viscosityOfAir(gas.temperature);
+  return gas;
+}
+
+AggregatesGas readAggregatesGas(const std::filesystem::path& file) {
+  const std::string text = readTextFile(file, "a table of a gas");
+  try {
+    AggregatesGas gas;
+    const TextTable table = readCsv(text);
+    if (table.rows.empty()) throw InputError("the table has no rows");
+    readColumns(table, gas);
+    return gas;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
+  }
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,272 @@
+#include "app/problems/aggregates/aggregates_repeat.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+#include "particles/population/monte_carlo/initial_sample.hpp"
+#include "particles/spheres/sphere_geometry.hpp"
+#include "particles/spheres/sphere_growth.hpp"
+
+namespace lampblack::app {
+namespace {
+
+// The run is asked to stop in the middle of a repeat.
+struct Cut {};
+void requireGoingOn() {
+  if (stopRequest() != 0) throw Cut{};
+}
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+// What random numbers are for: RandomStream.
+constexpr std::uint32_t buildPurpose = 0x61676772, shadowPurpose = 0x73686164, radiusPurpose = 0x72616469;
+
+// What a population says besides its aggregates.
+struct PopulationNumbers {
+  double number = nothing, collisionDiameter = nothing, tries = nothing, merged = 0;
+};
+
+void describe(const AggregatesCase& made, const std::vector<const SphereAggregate*>& all,
+              const PopulationNumbers& population, FractalPoints& law, RandomStream& random, std::span<double> row) {
+  double spheres = 0, largest = 0, volume = 0, surface = 0, radius = 0, logs = 0, squares = 0, necks = 0, widths = 0,
+         gyration = 0, points = 0, length = 0, shadow = 0, mobility = 0, joints = 0, overlap = 0;
+  for (const SphereAggregate* one : all) {
+    const auto n = static_cast<double>(one->count());
+    spheres += n;
+    largest = std::max(largest, n);
+    volume += one->volume();
+    surface += one->surface();
+    for (std::size_t k = 0; k < one->count(); ++k) {
+      const AggregateSphere& s = one->spheres()[k];
+      radius += s.radius;
+      logs += std::log(s.radius);
+      squares += std::log(s.radius) * std::log(s.radius);
+      if (k == 0) continue;
+      ++necks;
+      widths += std::sqrt(s.neck) / std::min(s.radius, one->spheres()[s.parent].radius);
+    }
+    const double square = gyrationSquared(*one), area = projectedArea(*one, made.directions, random);
+    gyration += square;
+    points += gyrationSquaredOfPoints(*one);
+    length += maximumLength(*one);
+    shadow += area;
+    mobility += shadowDiameter(area);
+    joints += coordination(*one);
+    overlap += uncountedOverlap(*one);
+    if (n >= made.fitFrom) law.add(n, std::sqrt(square) / meanRadius(*one));
+  }
+  const auto count = static_cast<double>(all.size());
+  const double variance = std::max(0.0, squares / spheres - logs / spheres * (logs / spheres));
+  const FractalFit fit = law.fit();
+  const double values[] = {population.number,
+                           count,
+                           spheres / count,
+                           largest,
+                           volume / count,
+                           surface / count,
+                           radius / spheres,
+                           std::exp(std::sqrt(variance)),
+                           necks > 0 ? widths / necks : nothing,
+                           std::sqrt(gyration / count),
+                           std::sqrt(points / count),
+                           length / count,
+                           shadow / count,
+                           mobility / count,
+                           population.collisionDiameter,
+                           joints / count,
+                           overlap / volume,
+                           fit.dimension,
+                           fit.dimensionError,
+                           fit.prefactor,
+                           fit.prefactorError,
+                           static_cast<double>(law.count()),
+                           population.tries,
+                           population.merged};
+  std::ranges::copy(values, row.begin());
+}
+
+std::vector<double> drawRadii(const AggregatesCase& made, std::uint64_t repeat, std::size_t count) {
+  RandomStream random(made.seed, repeat, radiusPurpose);
+  std::vector<double> radii(count, made.radius);
+  if (made.deviation > 1)
+    for (double& radius : radii) radius *= std::exp(std::log(made.deviation) * normalQuantile(random.uniform()));
+  return radii;
+}
+
+class Rows {
+ public:
+  Rows(const AggregatesCase& made, std::uint64_t repeat, std::span<double> rows)
+      : made_(made), random_(made.seed, repeat, shadowPurpose), rows_(rows) {}
+  // The law of a fractal goes through the aggregates of a row; of those that are being built, of all sizes so far.
+  void add(const std::vector<const SphereAggregate*>& all, const PopulationNumbers& population, bool isBuilt = false) {
+    const std::size_t width = aggregateQuantities().size();
+    if (!isBuilt) law_ = {};
+    if (!all.empty()) describe(made_, all, population, law_, random_, rows_.subspan(next_ * width, width));
+    ++next_;
+  }
+
+ private:
+  const AggregatesCase& made_;
+  RandomStream random_;
+  FractalPoints law_;
+  std::span<double> rows_;
+  std::size_t next_ = 0;
+};
+
+std::vector<const SphereAggregate*> placesOf(const std::vector<SphereAggregate>& all) {
+  std::vector<const SphereAggregate*> places;
+  for (const SphereAggregate& one : all) places.push_back(&one);
+  return places;
+}
+
+// Between rows, cut where the table of the gas has one. f(time, length) of each part.
+template <class F>
+void throughTime(const AggregatesCase& made, std::size_t row, const F& f) {
+  for (double now = made.times[row - 1]; now < made.times[row];) {
+    const double next = std::min(made.times[row], made.gas.nextChange(now));
+    f(0.5 * (now + next), next - now);
+    now = next;
+  }
+}
+
+// Aggregates that were built grow and sinter, half of the growth before and half behind.
+void treat(const AggregatesCase& made, std::vector<SphereAggregate>& all, Rows& rows) {
+  SphereSintering sintering(made.population.sintering, made.population.sinteringTolerance);
+  double merged = 0;
+  for (std::size_t row = 1; row < made.times.size(); ++row) {
+    throughTime(made, row, [&](double middle, double length) {
+      const double layer = 0.5 * length * made.gas.growthAt(middle);
+      for (SphereAggregate& one : all) {
+        requireGoingOn();
+        const auto before = static_cast<double>(one.count());
+        growEverywhere(one, layer);
+        sintering.advance(one, made.gas.at(middle).temperature, length);
+        growEverywhere(one, layer);
+        merged += before - static_cast<double>(one.count());
+      }
+    });
+    rows.add(placesOf(all), {.merged = merged});
+  }
+}
+
+void build(const AggregatesCase& made, std::uint64_t repeat, std::vector<SphereAggregate>& all, Rows& rows) {
+  RandomStream random(made.seed, repeat, buildPurpose);
+  BallisticJoining joining;
+  const std::size_t count = made.aggregates;
+  const bool byPairs = made.build == AggregatesCase::Build::equalPairs;
+  const std::vector<std::size_t> sizes = made.sizes();
+  const std::vector<double> radii = drawRadii(made, repeat, byPairs ? count : count * sizes.back());
+  for (std::size_t k = 0; k < count; ++k) all.emplace_back(radii[k]);
+  rows.add(placesOf(all), {}, true);
+  for (std::size_t size = 1; size < sizes.back(); size = byPairs ? 2 * size : size + 1) {
+    const std::uint64_t before = joining.tries();
+    std::vector<SphereAggregate> next;
+    for (std::size_t k = 0; k < count; ++k) {
+      requireGoingOn();
+      if (byPairs) {
+        const std::size_t i = random.below(count), j = random.below(count - 1);
+        next.push_back(joining.join(all[i], all[j < i ? j : j + 1], random));
+      } else {
+        next.push_back(joining.join(all[k], SphereAggregate(radii[size * count + k]), random));
+      }
+    }
+    all = std::move(next);
+    const double tries = static_cast<double>(joining.tries() - before) / static_cast<double>(count);
+    if (std::ranges::binary_search(sizes, all.front().count())) rows.add(placesOf(all), {.tries = tries}, true);
+  }
+}
+
+void collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::vector<SphereAggregate>& last) {
+  SpherePopulationOptions options = made.population;
+  options.seed = made.seed;
+  options.owner = repeat;
+  SpherePopulation population(options);
+  population.setCallback(requireGoingOn);
+  if (made.number > 0) population.fill(drawRadii(made, repeat, options.particles), made.number);
+  std::vector<SphereParticle> kept;
+  const auto addRow = [&] {
+    kept.clear();
+    population.forEach([&](const SphereParticle& p) { kept.push_back(p); });
+    std::vector<const SphereAggregate*> places;
+    PopulationNumbers numbers{.number = population.weight() * static_cast<double>(population.size()),
+                              .collisionDiameter = 0,
+                              .merged = static_cast<double>(population.merged())};
+    for (const SphereParticle& p : kept) {
+      places.push_back(p.aggregate.get());
+      numbers.collisionDiameter += p.collision / static_cast<double>(kept.size());
+    }
+    if (population.collisions() > 0)
+      numbers.tries = static_cast<double>(population.tries()) / static_cast<double>(population.collisions());
+    rows.add(places, numbers);
+  };
+  addRow();
+  for (std::size_t row = 1; row < made.times.size(); ++row) {
+    throughTime(made, row, [&](double middle, double length) {
+      const double d = made.birthDiameter;
+      const SphereSources sources{made.gas.birthsAt(middle), d > 0 ? volumeOfRadius(0.5 * d) : 0,
+                                  made.gas.growthAt(middle)};
+      population.advance(made.gas.at(middle), sources, length);
+    });
+    addRow();
+  }
+  for (const SphereParticle& p : kept) last.push_back(*p.aggregate);
+}
+
+}  // namespace
+
+const std::vector<Quantity>& aggregateQuantities() {
+  static const std::vector<Quantity> all{
+      {"number", "1/m^3", "number density of particles, of collisions"},
+      {"aggregates", "1", "particles of a repeat"},
+      {"spheres", "1", "spheres of a particle"},
+      {"largest", "1", "spheres of the largest particle"},
+      {"volume", "m^3", "volume of a particle"},
+      {"surface", "m^2", "free surface of a particle"},
+      {"radius", "m", "radius of a sphere"},
+      {"radius_deviation", "1", "geometric standard deviation of that radius"},
+      {"neck_ratio", "1", "radius of a neck over that of the smaller sphere"},
+      {"gyration", "m", "radius of gyration, root of the mean square"},
+      {"gyration_points", "m", "the same with the mass of each sphere in its centre"},
+      {"length", "m", "largest distance of two points of a particle"},
+      {"shadow", "m^2", "projected area of a particle"},
+      {"mobility_diameter", "m", "diameter of the sphere with that area"},
+      {"collision_diameter", "m", "diameter of collision, of collisions"},
+      {"coordination", "1", "neighbours of a sphere"},
+      {"overlap", "1", "volume shared by spheres that are not neighbours, over the volume of all"},
+      {"fractal_dimension", "1",
+       "D of n = k (R_g/a)^D over the particles with output.fit_from spheres; while aggregates are built of all sizes "
+       "so far"},
+      {"fractal_dimension_fit", "1", "standard error of D of the fit of a repeat"},
+      {"fractal_prefactor", "1", "k of that law"},
+      {"fractal_prefactor_fit", "1", "standard error of k of the fit of a repeat"},
+      {"fitted", "1", "particles in the fit"},
+      {"lines", "1", "straight lines drawn for a collision"},
+      {"merged", "1", "spheres that have become one with a neighbour"}};
+  return all;
+}
+
+void runAggregates(const AggregatesCase& made, std::uint64_t repeat, std::span<double> rows,
+                   std::vector<SphereAggregate>* last) {
+  std::ranges::fill(rows, nothing);
+  Rows to(made, repeat, rows);
+  std::vector<SphereAggregate> all;
+  try {
+    if (made.build == AggregatesCase::Build::collisions) {
+      collide(made, repeat, to, all);
+    } else {
+      build(made, repeat, all, to);
+      treat(made, all, to);
+    }
+  } catch (const Cut&) {
+    return;
+  }
+  if (last == nullptr) return;
+  all.resize(std::min(all.size(), made.drawn));
+  *last = std::move(all);
+}
+
+}  // namespace lampblack::app

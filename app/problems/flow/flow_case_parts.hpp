@@ -1,0 +1,68 @@
+// The parts of reading a flow deck; used by readFlowCase alone.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "app/problems/flow/flow_case.hpp"
+#include "core/modules.hpp"
+
+namespace lampblack::app::flowcase {
+
+// Of a mesh, two or three.
+using AxisNames = std::vector<std::string>;
+
+AxisNames axisNames(Geometry geometry, int dimension);
+inline AxisNames axisNames(const FlowCase& flowCase) {
+  return axisNames(flowCase.mesh.geometry, flowCase.dimension);
+}
+// "the axes of this mesh are r and z".
+std::string axesText(const AxisNames& names);
+
+// The section mesh: a box with its solids, floor and ceiling, or a file; its keys, and reading it.
+void addMeshKeys(DeckSchema& schema);
+void readMesh(const Deck& deck, FlowCase& flowCase);
+
+// Tells the user where an edge, of what is named, lies inside a cell of an axis.
+void noteEdgeInside(FlowCase& flowCase, const std::string& what, double edge, const std::vector<double>& vertices);
+
+// Mass fractions of a composition that the deck gives as mole fractions.
+std::vector<double> readComposition(const Deck& deck, const std::string& key, const Mechanism& mechanism);
+
+// The section boundaries, on the mesh that has been read: along every side one boundary follows the other.
+void readBoundaries(const Deck& deck, FlowCase& flowCase);
+
+// What a name is in those of files and of groups of the results: other characters than letters, digits, _, - and +
+// become _.
+std::string fileNameOf(std::string name);
+
+// The section time: its keys, and reading it with what else the steps depend on, when boundaries, start and particles
+// have been read. readRounds: of gas and ensembles in turn, behind both.
+void addTimeKeys(DeckSchema& schema);
+void addSteadyKeys(DeckSchema& schema);           // of time.steady
+[[nodiscard]] bool isSearched(const Deck& deck);  // whether the run looks for a steady state
+std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCase);
+void addBranchKeys(DeckSchema& schema);  // of time.steady.continuation
+std::optional<TimeControl::Branch> readBranch(const Deck& deck, const TimeControl::Search& search,
+                                              const FlowCase& flowCase);
+TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase);
+void readRounds(const Deck& deck, FlowCase& flowCase);
+void readTime(const Deck& deck, FlowCase& flowCase);
+
+// The section turbulence and what inlets bring of it: their keys, and reading them when boundaries, particles and start
+// have been read.
+void addTurbulenceKeys(DeckSchema& schema);
+void readTurbulence(const Deck& deck, FlowCase& flowCase);
+// Which model, and nothing else: before the start, which may have its variables.
+void readTurbulenceModel(const Deck& deck, FlowCase& flowCase);
+
+// The section combustion: its keys, and reading it when turbulence and particles have been read.
+void addCombustionKeys(DeckSchema& schema);
+void readCombustion(const Deck& deck, FlowCase& flowCase);
+
+// The section output: its keys, and reading it when mesh, boundaries and times have been read.
+void addOutputKeys(DeckSchema& schema);
+void readOutput(const Deck& deck, FlowCase& flowCase);
+
+}  // namespace lampblack::app::flowcase

@@ -1,0 +1,207 @@
+// The section turbulence of a flow deck, and what its inlets bring of turbulence.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/problems/flow/flow_case_parts.hpp"
+
+namespace lampblack::app::flowcase {
+namespace {
+
+constexpr double ratioOfStream = 0.21;  // of an inlet that says nothing, for models of one equation: 3 nu of SA
+
+// m^2/s, of a gas.
+double kinematicViscosity(const FlowCase& flowCase, double temperature, std::span<const double> Y) {
+  const Thermo thermo(*flowCase.mechanism);
+  Transport transport(*flowCase.mechanism, flowCase.transport.averaged());
+  std::vector<double> X(Y.size()), D(Y.size());
+  thermo.massToMole(Y, X);
+  return transport.mixture(temperature, flowCase.pressure, X, D).viscosity /
+         thermo.density(temperature, flowCase.pressure, Y);
+}
+
+FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCase& flowCase) {
+  const std::string section = "boundaries." + boundary.name, intensityKey = section + ".turbulence_intensity";
+  const auto intensity = deck.optionalNumber(intensityKey);
+  const auto length = deck.optionalQuantity(section + ".turbulence_length");
+  const auto ratio = deck.optionalNumber(section + ".eddy_viscosity_ratio");
+  const bool knowsEnergy = flowCase.turbulence.model->knowsEnergy();
+  if (boundary.varies.turbulentEnergy) {
+    if (intensity || length || ratio)
+      throw deck.error(
+          section,
+          "the turbulence that comes in is given by 'turbulent_kinetic_energy' and 'turbulent_dissipation'; "
+          "expected no 'turbulence_intensity', 'turbulence_length' and 'eddy_viscosity_ratio' beside them");
+    return {.viscosity = kinematicViscosity(flowCase, boundary.temperature, boundary.Y),
+            .energyAt = boundary.varies.turbulentEnergy,
+            .dissipationAt = boundary.varies.turbulentDissipation};
+  }
+  if (length && ratio)
+    throw deck.error(section, "expected one of 'turbulence_length' and 'eddy_viscosity_ratio', found both");
+  if (length && !intensity) throw deck.error(section, "a 'turbulence_length' needs a 'turbulence_intensity', too");
+  if (knowsEnergy && (!intensity || (!length && !ratio)))
+    throw deck.error(section,
+                     "this turbulence model needs a 'turbulence_intensity' and one of 'turbulence_length' and "
+                     "'eddy_viscosity_ratio' of each inlet, or by formula or table its 'turbulent_kinetic_energy' and "
+                     "'turbulent_dissipation'");
+  FreeStream stream;
+  stream.viscosity = kinematicViscosity(flowCase, boundary.temperature, boundary.Y);
+  stream.eddyViscosity = ratio.value_or(ratioOfStream) * stream.viscosity;
+  if (!intensity) return stream;
+  const double fluctuation = *intensity * std::abs(boundary.speed);
+  stream.energy = 1.5 * fluctuation * fluctuation;
+  if (knowsEnergy && !(stream.energy > 0.0))
+    throw deck.error(intensityKey, "expected an inlet with a velocity, whose turbulent energy is above zero");
+  // omega = k^(1/2)/(C_mu^(1/4) l), with C_mu = 0.09.
+  if (length) stream.eddyViscosity = std::sqrt(stream.energy) * std::pow(0.09, 0.25) * *length;
+  if (length && !flowCase.meshFile) {
+    double most = 0.0;
+    for (const std::vector<double>& vertices : flowCase.mesh.vertices)
+      if (!vertices.empty()) most = std::max(most, vertices.back() - vertices.front());
+    if (*length > most)
+      flowCase.notes.push_back(
+          fmt::format("{}.turbulence_length: {:g} m, more than the mesh is long", section, *length));
+  }
+  if (*intensity > 1.0) flowCase.notes.push_back(fmt::format("{}: more than one, {:g}", intensityKey, *intensity));
+  return stream;
+}
+
+}  // namespace
+
+void addTurbulenceKeys(DeckSchema& schema) {
+  std::vector<std::string> names{"none"}, described, ofOmega;
+  for (const TurbulenceRow& row : turbulenceModels()) {
+    names.emplace_back(row.name);
+    described.push_back(fmt::format("{}: {}", row.name, row.description));
+    if (turbulenceModel(row.name)->wallBeta() > 0.0) ofOmega.emplace_back(row.name);
+  }
+  const std::vector<std::string> models(names.begin() + 1, names.end());
+  schema
+      .add(choiceKey("turbulence.model", names,
+                     fmt::format(
+                         "Model of Reynolds-averaged turbulence. none: laminar, or all eddies resolved; {}. "
+                         "All but k_epsilon and realizable_k_epsilon resolve the layers beside walls: y+ of the first "
+                         "cells (history.csv) about one or less; those have wall functions: y+ from 30 to 300.",
+                         fmt::join(described, "; ")))
+               .byDefault("none"))
+      .add(numberKey("turbulence.prandtl", "Turbulent Prandtl number: eddies mix heat by their viscosity over it.")
+               .byDefault("0.9")
+               .above(0)
+               .onlyWith("turbulence.model", models))
+      .add(numberKey("turbulence.schmidt",
+                     "Turbulent Schmidt number, of species and of the particles of models. In flames 0.7 is usual for "
+                     "both.")
+               .byDefault("0.9")
+               .above(0)
+               .onlyWith("turbulence.model", models))
+      .add(numberKey("turbulence.eddy_viscosity_ratio",
+                     "Eddy viscosity over that of the molecules at the start, and of gas that outlets draw in.")
+               .byDefault("10")
+               .above(0)
+               .onlyWith("turbulence.model", models))
+      .add(choiceKey(
+               "turbulence.wall_distance", {"walls", "infinite"},
+               "Distances from walls, by which sa, sst, sst1994 and wang go. infinite: as if there were no walls, for "
+               "jets and other flows far from them.")
+               .byDefault("walls")
+               .onlyWith("turbulence.model", models))
+      .add(choiceKey("turbulence.walls", {"resolved", "automatic"},
+                     "How a model with omega meets walls. resolved: the first cell has y+ of about one or less. "
+                     "automatic: by both layers of the law of the wall at once, for cells of any thickness up to "
+                     "y+ 300.")
+               .byDefault("resolved")
+               .onlyWith("turbulence.model", ofOmega))
+      .add(numberKey("turbulence.c_epsilon1",
+                     "C_1 of k_epsilon, by which what makes k makes epsilon. 1.6 lets round jets spread as they are "
+                     "measured to; beside walls the logarithmic layer is another then (kappa 0.35).")
+               .byDefault("1.44")
+               .above(0)
+               .below(1.92)
+               .onlyWith("turbulence.model", {"k_epsilon"}))
+      .add(numberKey("turbulence.largest_eddy_viscosity_ratio",
+                     "A run ends where the eddy viscosity over that of the molecules becomes larger.")
+               .byDefault("1e5")
+               .above(0)
+               .onlyWith("turbulence.model", models))
+      .add(
+          quantityKey("turbulence.energy", units::velocity * units::velocity,
+                      "Turbulent kinetic energy k at the start, and of gas that outlets draw in, '0.3 m^2/s^2'; models "
+                      "of two equations need it, those of one do not look at it.")
+              .optional()
+              .above(0)
+              .onlyWith("turbulence.model", models))
+      .add(
+          numberKey("boundaries.*.turbulence_intensity",
+                    "Fluctuations of the velocity over the velocity: k = 1.5 (intensity * velocity)^2, of the velocity "
+                    "in the middle where it varies.")
+              .optional()
+              .above(0)
+              .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(quantityKey("boundaries.*.turbulence_length", units::length,
+                       "Length of the eddies that come in; in developed pipes 0.07 of the diameter.")
+               .optional()
+               .above(0)
+               .onlyWith("boundaries.*.type", {"inlet"}))
+      .add(numberKey("boundaries.*.eddy_viscosity_ratio",
+                     "Eddy viscosity over that of the molecules of the gas that comes in, in place of the length; "
+                     "absent, for models of one equation: 0.21.")
+               .optional()
+               .above(0)
+               .onlyWith("boundaries.*.type", {"inlet"}));
+}
+
+void readTurbulenceModel(const Deck& deck, FlowCase& flowCase) {
+  const std::string name = deck.choice("turbulence.model");
+  if (name == "none") return;
+  TurbulenceChoices choices;
+  choices.blendsLayers = turbulenceModel(name)->wallBeta() > 0.0 && deck.choice("turbulence.walls") == "automatic";
+  if (deck.isGiven("turbulence.c_epsilon1")) choices.dissipationSource = deck.number("turbulence.c_epsilon1");
+  flowCase.turbulence.model = turbulenceModel(name, choices);
+}
+
+void readTurbulence(const Deck& deck, FlowCase& flowCase) {
+  const std::string name = deck.choice("turbulence.model");
+  if (name == "none") {
+    for (const BoundaryCondition& boundary : flowCase.boundaries)
+      for (const char* key : {"turbulence_intensity", "turbulence_length", "eddy_viscosity_ratio"})
+        if (const std::string full = "boundaries." + boundary.name + "." + key; deck.has(full))
+          throw deck.error(full, "the flow has no turbulence model; expected a 'turbulence.model'");
+    for (const BoundaryCondition& boundary : flowCase.boundaries)
+      if (boundary.varies.turbulentEnergy)
+        throw deck.error("boundaries." + boundary.name,
+                         "turbulence comes in, and the flow has no turbulence model; expected a 'turbulence.model'");
+    return;
+  }
+  TurbulenceCase& turbulence = flowCase.turbulence;
+  turbulence.ignoresWalls = deck.choice("turbulence.wall_distance") == "infinite";
+  turbulence.mostRatio = deck.number("turbulence.largest_eddy_viscosity_ratio");
+  turbulence.numbers = {deck.number("turbulence.prandtl"), deck.number("turbulence.schmidt")};
+  if (flowCase.swirls)
+    throw deck.error("turbulence.model", "the models do not know the strain of a flow that swirls; expected none");
+  if (turbulence.model->needsWallDistance() && !turbulence.ignoresWalls &&
+      std::ranges::none_of(flowCase.boundaries,
+                           [](const BoundaryCondition& boundary) { return boundary.isNoSlipWall(); })) {
+    std::vector<std::string> names;
+    for (const BoundaryCondition& boundary : flowCase.boundaries) names.push_back(boundary.name);
+    throw deck.error(
+        "turbulence.model",
+        fmt::format("'{}' goes by the distance from walls, and no boundary is a wall without slip: {}; where all "
+                    "of them are far away 'wall_distance: infinite' does without",
+                    name, fmt::join(names, ", ")));
+  }
+  const Stream first{flowCase.initial.low.temperature, flowCase.initial.low.Y};
+  turbulence.start.viscosity = kinematicViscosity(flowCase, first.temperature, first.Y);
+  turbulence.start.eddyViscosity = deck.number("turbulence.eddy_viscosity_ratio") * turbulence.start.viscosity;
+  if (turbulence.model->knowsEnergy()) {
+    const auto energy = deck.optionalQuantity("turbulence.energy");
+    if (!energy) throw deck.error("turbulence", fmt::format("'{}' needs the key 'energy'", name));
+    turbulence.start.energy = *energy;
+  }
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    turbulence.boundaries.push_back(boundary.kind == BoundaryKind::Inlet ? streamOf(deck, boundary, flowCase)
+                                                                         : turbulence.start);
+}
+
+}  // namespace lampblack::app::flowcase

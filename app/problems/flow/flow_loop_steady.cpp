@@ -1,0 +1,321 @@
+// The search for the steady state of a flow: what of it is steps in time and what iterations, and what it tells.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <limits>
+#include <numeric>
+
+#include "app/problems/flow/flow_loop.hpp"
+#include "app/run/warnings.hpp"
+#include "core/errors.hpp"
+#include "core/first_error.hpp"
+#include "core/system_error.hpp"
+#include "io/json.hpp"
+
+namespace lampblack::app {
+namespace {
+
+enum Way { InTime, Iterating };
+
+// Adds the processor time of this rank until the end of the scope.
+class ProcessorTime {
+ public:
+  explicit ProcessorTime(double& seconds) : seconds_(seconds), start_(std::clock()) {}
+  ~ProcessorTime() { seconds_ += static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+  ProcessorTime(const ProcessorTime&) = delete;
+  ProcessorTime& operator=(const ProcessorTime&) = delete;
+
+ private:
+  double& seconds_;
+  std::clock_t start_;
+};
+
+constexpr double firstStepBack = 0.1;  // of the last step in time, after iterations that are kept
+
+// "mass_fluxes" of "mass fluxes".
+std::string columnName(std::string equation) {
+  std::ranges::replace(equation, ' ', '_');
+  return "residual_" + equation;
+}
+
+}  // namespace
+
+double FlowLoop::totalHeatRelease() const {
+  double total = 0.0;
+  const std::vector<double> heat = heatRelease();
+  for (std::size_t c = 0; c < heat.size(); ++c) total += heat[c] * domain_->mesh.volume[c];
+  MPI_Allreduce(MPI_IN_PLACE, &total, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return std::abs(total) < steadiness_.leastHeat() ? 0.0 : total;
+}
+
+bool FlowLoop::burnsOrCannot() const {
+  return case_.mechanism->numReactions() == 0 || flow::flameSteepness(domain_->context, domain_->state).has_value();
+}
+
+void FlowLoop::findNorms(const FlowResidual& residual) {
+  norms_ = residualNorms(domain_->context, domain_->state, residual, steadiness_.time());
+  normsOf_ = steps_;
+}
+
+double FlowLoop::largestNorm() const {
+  return residualOfSearch().largest;
+}
+
+SteadySearch::Residual FlowLoop::residualOfSearch() const {
+  SteadySearch::Residual found(0.0);
+  const auto raise = [](double& to, double value) { to = std::isfinite(value) ? std::max(to, value) : INFINITY; };
+  for (const ResidualNorm& norm : norms_) {
+    raise(found.largest, norm.value);
+    if (norm.equation == "momentum" || norm.equation == "swirl") raise(found.ofMomentum, norm.value);
+    if (norm.equation == "enthalpy") raise(found.ofEnthalpy, norm.value);
+  }
+  return found;
+}
+
+SteadySearch::Residual FlowLoop::evaluateForSearch() {
+  const Timers::Scope timer(timers_, "monitoring");
+  if (!residual_)
+    residual_ = std::make_unique<FlowResidual>(domain_->context, domain_->state, case_.flow.velocityScheme, operators_);
+  residual_->evaluate(domain_->state);
+  findNorms(*residual_);
+  return residualOfSearch();
+}
+
+void FlowLoop::searchOn(Outputs& outputs) {
+  if (search_->phase() == SteadySearch::Phase::Iterations) {
+    iterate(outputs);
+    if (search_->isSteady()) lightIfDark(outputs);
+  } else {
+    const ProcessorTime scope(processorTime_[InTime]);
+    const std::int64_t retried = retried_;
+    stepInTime(outputs);
+    search_->addStep(totalHeatRelease(), retried_ != retried);
+    if (search_->wantsResidual()) {
+      const SteadySearch::Residual residual = evaluateForSearch();
+      search_->addResidualOfStep(residual, mayAttempt());
+    }
+    lightIfDark(outputs);
+  }
+  if (search_->isGivenUp()) giveUp(outputs);
+}
+
+// Every other time velocities and pressure have their quickest pace at once.
+void FlowLoop::makeIteration() {
+  SteadyIteration::Options options{.scheme = case_.flow.velocityScheme};
+  const int before = search_->isAttempt() ? search_->attempts() : search_->returns();
+  if (before % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
+  backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
+  beforeIterations_ = steadiness_;
+  evaluateForEddies();
+  // What is a function of the state becomes it, such as an eddy viscosity that lags behind in time.
+  for (Operator* op : operators_) op->setDiffusivities(domain_->state);
+  domain_->state.updateHalo(domain_->halo);
+  iteration_ = std::make_unique<SteadyIteration>(domain_->context, domain_->state, options, operators_);
+}
+
+void FlowLoop::evaluateForEddies() {
+  if (domain_->turbulence) domain_->adopt(case_);
+}
+
+void FlowLoop::iterate(Outputs& outputs) {
+  const ProcessorTime scope(processorTime_[Iterating]);
+  if (!iteration_) makeIteration();
+  const int attemptsBefore = search_->attempts();
+  try {
+    SteadyIteration::Outcome outcome;
+    {
+      const Timers::Scope timer(timers_, "steady iterations");
+      outcome = iteration_->iterate(domain_->state, !search_->isFlowAtRest());
+    }
+    ++steps_;
+    if (outcome.taken) {
+      checkStateAndRequests(outputs.checkpoints);
+      const FlowResidual& residual = iteration_->residual();
+      domain_->chemistry.setRates(domain_->state, residual.rates().made.reactions);
+      domain_->stepControl.setHeatRelease(heatRelease());
+      domain_->budget->begin(domain_->state);
+      evaluateForEddies();
+      steadiness_.adopt(domain_->state, domain_->flow.properties(), time_);
+      findNorms(residual);
+      const SteadySearch::Residual left = residualOfSearch();
+      search_->addIteration(left, totalHeatRelease(), left.largest > search_->options().residual || burnsOrCannot());
+    } else {
+      search_->addFailure(outcome.why);
+    }
+  } catch (const NumericsError& error) {
+    if (domain_->mesh.ranks > 1 && !isCollective(error)) throw;
+    search_->endIterations(error.what());
+  }
+  if (search_->phase() == SteadySearch::Phase::Steps) goBack(outputs, attemptsBefore);
+}
+
+void FlowLoop::goBack(Outputs& outputs, int attemptsBefore) {
+  iteration_.reset();
+  const bool wasAttempt = attemptsBefore != search_->attempts();
+  if (search_->takesBack()) {
+    restoreStepStart(time_, steps_);
+    steadiness_ = *beforeIterations_;
+  } else {
+    steadiness_.begin(domain_->state, time_);
+    domain_->adopt(case_);
+    resumeFromLoadedState();
+    dt_ *= firstStepBack;
+  }
+  normsOf_ = -1;
+  outputs.progress.finish();
+  if (!search_->isGivenUp() && !wasAttempt)
+    printWarnings({fmt::format("step {}: iterations end and steps in time go on{}: {}", steps_,
+                               search_->takesBack() ? " from where they were" : "", search_->whyNot())});
+}
+
+void FlowLoop::giveUp(Outputs& outputs) {
+  std::string kept;
+  outputs.progress.finish();
+  if (steps_ % case_.output.historySteps == 0) writeRow(outputs.history);  // a row of the way, which the checkpoint has
+  try {
+    kept = saveLastState(outputs);
+  } catch (const SystemError& error) {
+    kept = fmt::format("the last state could not be kept: {}", error.what());
+  }
+  std::string rest = "its residual is not known";
+  const auto worst = std::ranges::max_element(norms_, {}, &ResidualNorm::value);
+  if (worst != norms_.end())
+    rest = fmt::format(
+        "the largest residual is that of {}, {:.2e} of what goes through, of which the cell at {} has "
+        "{:.2e}",
+        worst->equation, worst->value, placeText(worst->place, domain_->mesh.dimension), worst->largest);
+  raiseTogether(
+      comm_,
+      NumericsError(fmt::format(
+          "no steady state with residuals below {:.2g} was found in {} steps in time and {} iterations{}: {}. A "
+          "flow that moves by itself has none or one that steps in time pass by: look at it in time (--restart with "
+          "'time.mode: transient' and 'time.end'), and start from a later moment of that (initial.flow.results, "
+          "with time.steady.steps: 30); else more iterations (time.steady.iterations, time.steady.returns) may "
+          "find it, or smaller cells at that place, or it is small enough as it is (time.steady.residual); {}",
+          search_->options().residual, search_->steps(), search_->iterations(),
+          search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, kept)));
+}
+
+void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
+  search_->saveOrLoad(archive);
+  if (rounds_) {
+    rounds_->saveOrLoad(archive);
+    gases_.saveOrLoad(archive, "gases_");
+    if (isTurnOfParticles()) return;
+  }
+  if (search_->phase() != SteadySearch::Phase::Iterations) return;
+  if (archive.loading()) domain_->state.updateHalo(domain_->halo);
+  if (!iteration_) makeIteration();
+  iteration_->saveOrLoad(domain_->state, archive);
+  backup_.saveOrLoad(archive, "steady_begin_");
+  beforeIterations_->saveOrLoad(archive, "before_iterations_");
+}
+
+std::vector<Quantity> FlowLoop::searchColumns() const {
+  std::vector<Quantity> columns{{"iteration", "1", "iterations so far; of a row that is one, time stands still"}};
+  const auto add = [&](const std::string& equation, const std::string& what) {
+    columns.push_back({columnName(equation), "1", "what is left of " + what + ", of what goes through"});
+  };
+  add("mass", "the balance of mass");
+  add("mass fluxes", "the mass fluxes of the faces");
+  add("momentum", "the balance of momentum");
+  if (domain_->state.swirls) add("swirl", "the balance of angular momentum");
+  add("enthalpy", "the balance of enthalpy");
+  add("species", "the balance of the species that has most");
+  if (std::ranges::any_of(domain_->state.scalars, &CarriedScalar::isTransported))
+    add("carried", "the balance of the carried scalar that has most");
+  return columns;
+}
+
+std::vector<double> FlowLoop::searchValues() const {
+  std::vector<double> values{static_cast<double>(search_->iterations())};
+  if (normsOf_ == steps_)
+    for (const ResidualNorm& norm : worstOfEachKind(norms_)) values.push_back(norm.value);
+  values.resize(searchColumns().size(), std::numeric_limits<double>::quiet_NaN());
+  return values;
+}
+
+std::string FlowLoop::searchPlace() const {
+  if (isTurnOfParticles())
+    return fmt::format("step {:>6}  ensembles, round {}  t {:.4g} s  dt {:.3g} s", steps_, rounds_->rounds() + 1, time_,
+                       dt_);
+  if (iteration_) return fmt::format("step {:>6}  iteration {}", steps_, search_->iterations());
+  return fmt::format("step {:>6}  t {:.4g} s  dt {:.3g} s", steps_, time_, dt_);
+}
+
+double FlowLoop::searchProgress() const {
+  if (!isTurnOfParticles()) return search_->progress();
+  return static_cast<double>(domain_->ensembles->averagedBlocks()) / static_cast<double>(rounds_->blocks());
+}
+
+std::vector<std::string> FlowLoop::searchLines() const {
+  const std::string back = search_->returns() > 0 ? fmt::format(", {} times back to steps", search_->returns()) : "";
+  const std::string lit = search_->lightings() > 0 ? fmt::format(", {} times lit", search_->lightings()) : "";
+  const std::string early = search_->isAttempt() && isSteady()
+                                ? ", before the heat release was quiet (where a flow has several steady states, one in "
+                                  "time may end in another: "
+                                  "time.steady.attempts=0)"
+                                : "";
+  const std::string takenBack =
+      search_->attempts() > 0 ? fmt::format(", {} of which were taken back", search_->iterationsTakenBack()) : "";
+  const std::string first = search_->firstResidual() > 0.0
+                                ? fmt::format("{:.2e} before the first iteration, ", search_->firstResidual())
+                                : "";
+  std::vector<std::string> lines;
+  for (const TimeControl::Search::Coarser& coarser : case_.time.search->coarser)
+    lines.push_back(
+        fmt::format("on a coarser mesh of {} cells {} after {} steps in time and {} iterations, {:.3g} s of "
+                    "processor{}",
+                    coarser.cells, coarser.isSteady ? "steady" : "not steady", coarser.steps, coarser.iterations,
+                    coarser.processorTime, coarser.isStart ? "" : "; nothing burns there: no start of the next"));
+  lines.push_back(fmt::format(
+      "{} (time.steady.residual {:.2g}) after {} steps in time, to t = {:.6g} s{}, and {} iterations{}{}{}; "
+      "largest residual {}{:.2e} now",
+      isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
+      search_->iterations(), takenBack, back, lit, first, largestNorm()));
+  lines.push_back(fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s",
+                              processorTime_[InTime], processorTime_[Iterating]));
+  for (const std::string& line : roundLines()) lines.push_back(line);
+  return lines;
+}
+
+void FlowLoop::tellSearch() {
+  MPI_Allreduce(MPI_IN_PLACE, processorTime_.data(), static_cast<int>(processorTime_.size()), MPI_DOUBLE, MPI_SUM,
+                comm_);
+  if (domain_->mesh.rank != 0) return;
+  for (const std::string& line : searchLines()) fmt::print("{}\n", line);
+}
+
+TimeControl::Search::Coarser FlowLoop::searchAsCoarser() const {
+  return {cells(),          search_->isSteady(),   burnsOrCannot(),
+          search_->steps(), search_->iterations(), processorTime_[InTime] + processorTime_[Iterating]};
+}
+
+void FlowLoop::addSearch(JsonWriter& json) const {
+  json.key("search").beginObject();
+  json.field("steps_in_time", static_cast<std::int64_t>(search_->steps()));
+  json.field("iterations", static_cast<std::int64_t>(search_->iterations()));
+  json.field("attempts_taken_back", static_cast<std::int64_t>(search_->attempts()));
+  json.field("iterations_taken_back", static_cast<std::int64_t>(search_->iterationsTakenBack()));
+  json.field("found_early", search_->isAttempt() && isSteady());
+  json.field("returns_to_steps", static_cast<std::int64_t>(search_->returns()));
+  json.field("times_lit", static_cast<std::int64_t>(search_->lightings()));
+  json.field("residual_before_iterations", search_->firstResidual()).field("last_residual", largestNorm());
+  json.field("processor_time_of_steps_s", processorTime_[InTime]);
+  json.field("processor_time_of_iterations_s", processorTime_[Iterating]);
+  if (rounds_) addRounds(json);
+  json.key("coarser_meshes").beginArray();
+  for (const TimeControl::Search::Coarser& coarser : case_.time.search->coarser) {
+    json.beginObject().field("cells", coarser.cells).field("steady", coarser.isSteady);
+    json.field("is_start", coarser.isStart);
+    json.field("steps_in_time", static_cast<std::int64_t>(coarser.steps));
+    json.field("iterations", static_cast<std::int64_t>(coarser.iterations));
+    json.field("processor_time_s", coarser.processorTime).endObject();
+  }
+  json.endArray();
+  json.endObject();
+}
+
+}  // namespace lampblack::app

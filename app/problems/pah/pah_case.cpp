@@ -1,0 +1,242 @@
+#include "app/problems/pah/pah_case.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/deck/gas_input.hpp"
+#include "app/problems/pah/pah_rates_deck.hpp"
+#include "app/problems/prescribed_gas/given_gas_deck.hpp"
+#include "chemistry/mechanism/known_species.hpp"
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "coupling/given_gas.hpp"
+#include "particles/pah/molecule_growth.hpp"
+#include "particles/pah/named_molecules.hpp"
+
+namespace lampblack::app {
+namespace {
+
+std::vector<LatticeCell> readCells(const Deck& deck, const std::string& key) {
+  const std::vector<std::int64_t> numbers = deck.integers(key);
+  if (numbers.size() % 2 != 0)
+    throw deck.error(key, fmt::format("expected two numbers for each cell, found {} in all", numbers.size()));
+  std::vector<LatticeCell> cells;
+  for (std::size_t i = 0; i < numbers.size(); i += 2) {
+    for (const std::int64_t x : {numbers[i], numbers[i + 1]})
+      if (x < -1000000 || x > 1000000) throw deck.error(key, fmt::format("the cell {} is too far away", x));
+    cells.push_back({static_cast<std::int32_t>(numbers[i]), static_cast<std::int32_t>(numbers[i + 1])});
+  }
+  return cells;
+}
+
+void readMolecule(const Deck& deck, PahCase& pah) {
+  const bool isNamed = deck.has("molecule.name");
+  if (isNamed == deck.has("molecule.cells"))
+    throw deck.error("molecule", "expected either 'name', one that is known, or 'cells', its rings");
+  pah.rings = isNamed ? namedMolecule(deck.choice("molecule.name")) : readCells(deck, "molecule.cells");
+  const std::string fiveKey = "molecule.five_rings";
+  if (deck.has(fiveKey)) pah.fiveRings = readCells(deck, fiveKey);
+  if (!isNamed) deck.at("molecule.cells", [&] { return Molecule(pah.rings).rings(); });
+  const std::size_t rings = deck.at(deck.has(fiveKey) ? fiveKey : "molecule", [&] { return pah.start().rings(); });
+  pah.mostRings = deck.optionalInteger<std::size_t>("molecule.most_rings").value_or(MoleculeGrowth::noLimit);
+  if (pah.mostRings < rings)
+    throw deck.error("molecule.most_rings", fmt::format("expected {} or more, as the molecule has", rings));
+}
+
+// A gas that stays as it is.
+ParticlePath constantGas(const Deck& deck) {
+  for (const char* key : {"temperature", "pressure", "mole_fractions", "end"})
+    if (!deck.has(std::string("gas.") + key))
+      throw deck.error("gas", fmt::format("a gas that stays as it is needs the key '{}'; one that does not is in "
+                                          "'file' or 'flame'",
+                                          key));
+  GasSample sample;
+  sample.gas.temperature = deck.quantity("gas.temperature");
+  sample.gas.pressure = deck.quantity("gas.pressure");
+  const std::vector<std::string> names = pahGasSpeciesNames();
+  sample.concentrations.assign(names.size(), 0);
+  const double total = sample.gas.pressure / (constants::gasConstant * sample.gas.temperature);
+  double sum = 0;
+  for (const std::string& name : deck.children("gas.mole_fractions")) {
+    const std::string key = "gas.mole_fractions." + name;
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      throw deck.error(key, fmt::format("molecules react with {} only; leave the others out, which need not be named",
+                                        fmt::join(names, ", ")));
+    sum += deck.number(key);
+    sample.concentrations[static_cast<std::size_t>(found - names.begin())] = total * deck.number(key);
+  }
+  if (sum > 1 + 1e-9) throw deck.error("gas.mole_fractions", fmt::format("they add up to {:g}, more than one", sum));
+  ParticlePath path;
+  path.points = {sample, sample};
+  path.points[1].time = deck.quantity("gas.end");
+  path.divergence.resize(1);
+  return path;
+}
+
+ParticlePath readGas(const Deck& deck) {
+  const bool isGiven = deck.has("gas.file") || deck.has("gas.flame");
+  if (!isGiven) {
+    for (const char* key : {"mechanism", "phase", "gas.side", "gas.start", "gas.minimum_velocity"})
+      if (deck.isGiven(key)) throw deck.error(key, "this belongs to 'gas.file' or 'gas.flame'; leave it out");
+    return constantGas(deck);
+  }
+  requireOneGas(deck);
+  for (const char* key : {"gas.temperature", "gas.pressure", "gas.mole_fractions"})
+    if (deck.has(key)) throw deck.error(key, "the gas is that of 'gas.file' or 'gas.flame'; leave this out");
+  if (!deck.has("mechanism"))
+    throw deck.error("gas", "with 'file' or 'flame' the key 'mechanism' is needed, which has the gas's species");
+  const auto mechanism = readMechanism(deck);
+  for (const char* name : {"H", "H2", "C2H2"})
+    deck.at("mechanism", [&] { return knownSpecies(*mechanism, name, "molecules need"); });
+  return readGivenPath(deck, *mechanism, pahGasSpeciesNames(), GasViscosity::air);
+}
+
+std::array<bool, pahProcessCount> readProcesses(const Deck& deck) {
+  std::array<bool, pahProcessCount> active{};
+  if (!deck.has("processes")) {
+    active.fill(true);
+    return active;
+  }
+  for (const std::string& name : deck.strings("processes"))
+    active[static_cast<std::size_t>(
+        std::ranges::find(pahProcesses, name, [](const PahProcessRow& row) { return std::string(row.name); }) -
+        pahProcesses.begin())] = true;
+  return active;
+}
+
+void readRowsAndSpectra(const Deck& deck, PahCase& pah) {
+  const auto& points = pah.path.points;
+  std::vector<double> rows = readRows(deck, points.front().time, points.back().time);
+  const double begin = rows.front(), end = rows.back();
+  std::vector<double> spectra;
+  if (deck.has("output.spectra")) spectra = deck.quantities("output.spectra");
+  spectra.push_back(end);
+  for (double& t : spectra) {
+    if (t < begin || t > end)
+      throw deck.error("output.spectra", fmt::format("{:g} s is outside the run, {:g} to {:g} s", t, begin, end));
+    // A row that is there already, up to rounding.
+    const auto row = std::ranges::find_if(rows, [&](double at) { return std::abs(at - t) <= 1e-9 * (end - begin); });
+    if (row == rows.end())
+      rows.push_back(t);
+    else
+      t = *row;
+  }
+  std::ranges::sort(rows);
+  pah.recorded = insertPoints(pah.path, rows);
+  for (const double t : spectra)
+    pah.spectra.push_back(static_cast<std::size_t>(std::ranges::lower_bound(rows, t) - rows.begin()));
+  std::ranges::sort(pah.spectra);
+  pah.spectra.erase(std::ranges::unique(pah.spectra).begin(), pah.spectra.end());
+  pah.path.points.resize(pah.recorded.back() + 1);
+}
+
+}  // namespace
+
+DeckSchema pahSchema() {
+  DeckSchema schema;
+  std::vector<std::string> processes;
+  for (const PahProcessRow& row : pahProcesses) processes.emplace_back(row.name);
+  schema.add(choiceKey("problem", {"pah"}, "What is solved."))
+      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
+      .add(stringKey("mechanism",
+                     "Mechanism that has the species of gas.file or gas.flame: a file in Cantera's YAML "
+                     "format, relative to the deck, or the name of one that ships.")
+               .optional())
+      .add(stringKey("phase", "Name of the phase of the mechanism file; without it the first ideal gas.").optional());
+  schema.section("molecule", Presence::required, "The molecule at the start. Either 'name' or 'cells'.")
+      .add(choiceKey("molecule.name", moleculeNames(), "A molecule that is known by its name.").optional())
+      .add(integerKey(
+               "molecule.cells",
+               "Rings of six of the molecule, as cells of a lattice of hexagons, two numbers each: [0, 0, 1, 0] is "
+               "naphthalene. The neighbours of (q, r) are (q+1, r), (q, r+1), (q-1, r+1) and their opposites.")
+               .list()
+               .optional())
+      .add(integerKey("molecule.five_rings", "Rings of five of the molecule, as cells between two of the rings of six.")
+               .list()
+               .optional())
+      .add(integerKey("molecule.most_rings",
+                      "A molecule with more rings has left: it grows no further and is in no mean; how many have is "
+                      "said. Absent: no limit.")
+               .optional()
+               .atLeast(1));
+  schema
+      .section("gas", Presence::required,
+               "The gas. Either temperature, pressure, mole_fractions and end, for one that stays as it is, or 'file' "
+               "or 'flame'.")
+      .add(quantityKey("gas.temperature", units::temperature, "Temperature of a gas that stays as it is.")
+               .optional()
+               .above(0))
+      .add(quantityKey("gas.pressure", units::pressure, "Pressure of a gas that stays as it is.").optional().above(0))
+      .add(
+          numberKey("gas.mole_fractions.*",
+                    "Mole fraction of a species that molecules react with, one of H, H2, OH, H2O, O2, C2H2; all others "
+                    "take no part and are not named.")
+              .optional()
+              .atLeast(0)
+              .atMost(1));
+  addGivenGasKeys(schema);
+  schema
+      .add(choiceKey("processes", processes,
+                     "Processes that take place; absent: all. Their names are those of docs/theory/pah.md.")
+               .list()
+               .optional())
+      .add(numberKey("rate_change",
+                     "Largest part by which a rate changes over a time in which rates are taken as constant; smaller "
+                     "is more accurate. Has a meaning where the gas changes.")
+               .byDefault("0.05")
+               .above(0)
+               .atMost(1))
+      .add(integerKey("repeats", "Number of molecules, each with random numbers of its own.")
+               .byDefault("1000")
+               .atLeast(2)
+               .atMost(1e9))
+      .add(integerKey("seed",
+                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
+               .byDefault("1")
+               .atLeast(0));
+  addPahRateKeys(schema);
+  addRowKeys(schema);
+  schema
+      .add(quantityKey("output.spectra", units::time, "Times of mass spectra besides that of the end.")
+               .list()
+               .optional())
+      .add(integerKey("output.molecules", "Number of molecules whose rings are written at the end, for pictures.")
+               .byDefault("12")
+               .atLeast(0)
+               .atMost(10000))
+      .add(quantityKey("checkpoint.wall_time", units::time, "Wall time between two checkpoints.")
+               .byDefault("30 min")
+               .above(0))
+      .add(booleanKey("checkpoint.at_end",
+                      "Write a checkpoint at the end of the run too, from which it can go on to more repeats.")
+               .byDefault("false"));
+  return schema;
+}
+
+PahCase readPahCase(const Deck& deck) {
+  PahCase pah;
+  pah.title = deck.string("title");
+  readMolecule(deck, pah);
+  pah.path = readGas(deck);
+  pah.constants = readPahRates(deck);
+  readRowsAndSpectra(deck, pah);
+  pah.growth = deck.at("rates", [&] {
+    try {
+      return growthPath(pah.path, pah.recorded, pah.constants, readProcesses(deck), deck.number("rate_change"));
+    } catch (const NumericsError& error) {
+      throw InputError(error.what());
+    }
+  });
+  pah.repeats = deck.integer<std::uint64_t>("repeats");
+  pah.seed = deck.integer<std::uint64_t>("seed");
+  pah.drawn = std::min(deck.integer<std::size_t>("output.molecules"), static_cast<std::size_t>(pah.repeats));
+  pah.checkpointInterval = deck.quantity("checkpoint.wall_time");
+  pah.checkpointAtEnd = deck.boolean("checkpoint.at_end");
+  return pah;
+}
+
+}  // namespace lampblack::app

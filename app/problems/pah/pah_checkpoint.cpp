@@ -1,0 +1,74 @@
+#include "app/problems/pah/pah_checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include "app/run/content_hash.hpp"
+#include "core/errors.hpp"
+
+namespace lampblack::app {
+namespace {
+
+std::string cellsText(const std::vector<LatticeCell>& cells) {
+  std::string text;
+  for (const LatticeCell& cell : cells) text += fmt::format("({}, {})", cell.q, cell.r);
+  return text;
+}
+
+// Both ways; all ranks learn how many are done.
+void saveOrLoad(StateArchive& archive, int rank, PahProgress& progress) {
+  auto done = static_cast<double>(progress.done);
+  archive.shared("repeats", done);
+  progress.done = static_cast<std::uint64_t>(done);
+  progress.sums.saveOrLoad(archive, rank);
+}
+
+}  // namespace
+
+Fingerprint pahFingerprint(const PahCase& pah) {
+  ContentHash molecule, growth;
+  molecule.add(cellsText(pah.rings) + "|" + cellsText(pah.fiveRings));
+  for (const GrowthInterval& interval : pah.growth.intervals) {
+    growth.add(fmt::format("{} ", interval.duration));
+    for (const double rate : interval.rates) growth.add(fmt::format("{} ", rate));
+  }
+  for (const std::size_t record : pah.growth.records) growth.add(fmt::format("{} ", record));
+  for (const std::size_t row : pah.spectra) growth.add(fmt::format("{} ", row));
+  return {{"problem", "pah"},
+          {"molecule", fmt::format("{} rings, {}", pah.rings.size() + pah.fiveRings.size(), molecule.text())},
+          {"gas, rates or rows", growth.text()},
+          {"limit of rings", fmt::format("{}", pah.mostRings)},
+          {"seed", fmt::format("{}", pah.seed)}};
+}
+
+std::filesystem::path savePahProgress(MPI_Comm comm, const CheckpointFolder& folder, const PahCase& pah,
+                                      const PahProgress& progress) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  collectively(comm, [&] {
+    if (rank == 0) folder.make();
+  });
+  const std::filesystem::path file = folder.checkpoint(static_cast<std::int64_t>(progress.done));
+  CheckpointWriter writer(comm, file, {}, pahFingerprint(pah));
+  PahProgress saved = progress;
+  saveOrLoad(writer, rank, saved);
+  writer.texts("outputs", {});
+  writer.finish();
+  collectively(comm, [&] {
+    if (rank == 0) folder.removeAllBut({file});
+  });
+  return file;
+}
+
+PahProgress loadPahProgress(MPI_Comm comm, const WholeCheckpoint& checkpoint, const PahCase& pah) {
+  int rank = 0;
+  MPI_Comm_rank(comm, &rank);
+  PahProgress progress{0, GrowthSums(pah.recorded.size())};
+  CheckpointReader reader(comm, checkpoint.file, {}, pahFingerprint(pah));
+  saveOrLoad(reader, rank, progress);
+  if (progress.done > pah.repeats)
+    throw InputError(fmt::format("{}: this checkpoint has {} molecules, more than 'repeats: {}'",
+                                 checkpoint.file.string(), progress.done, pah.repeats));
+  return progress;
+}
+
+}  // namespace lampblack::app

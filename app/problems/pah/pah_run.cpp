@@ -1,0 +1,227 @@
+#include "app/problems/pah/pah_run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "app/problems/pah/pah_case.hpp"
+#include "app/problems/pah/pah_checkpoint.hpp"
+#include "app/problems/pah/pah_output.hpp"
+#include "app/run/warnings.hpp"
+#include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "core/stop_request.hpp"
+#include "io/csv.hpp"
+#include "io/history.hpp"
+#include "io/progress.hpp"
+
+namespace lampblack::app {
+namespace {
+
+constexpr std::uint64_t eventsAtATime = std::uint64_t{1} << 20U;  // before a request to stop is seen
+constexpr double leastRound = 0.5, longestRound = 2;              // s of molecules that are begun together
+
+// What random numbers are for: RandomStream.
+constexpr std::uint32_t growthPurpose = 0x706168;
+
+// Calls row(i, growth) at each row. False where the run is to stop before the end.
+template <class Row>
+bool growMolecule(const PahCase& pah, MoleculeGrowth& growth, const Row& row, bool mayStop = true) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i <= pah.growth.intervals.size(); ++i) {
+    for (; next < pah.growth.records.size() && pah.growth.records[next] == i; ++next) row(next, growth);
+    if (i == pah.growth.intervals.size()) break;
+    double left = pah.growth.intervals[i].duration;
+    while ((left = growth.advance(pah.growth.intervals[i].rates, left, eventsAtATime)) > 0)
+      if (mayStop && stopRequest() != 0) return false;
+  }
+  return true;
+}
+
+MoleculeGrowth newMolecule(const PahCase& pah, const Molecule& start, std::uint64_t repeat) {
+  return {start, RandomStream(pah.seed, repeat, growthPurpose), pah.mostRings};
+}
+
+std::uint64_t sumOf(const MoleculeGrowth& growth) {
+  std::uint64_t sum = 0;
+  for (const auto* counts : {&growth.events(), &growth.voids()})
+    for (const std::uint64_t count : *counts) sum += count;
+  return sum;
+}
+
+class PreparedPah : public PreparedRun {
+ public:
+  PreparedPah(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
+    MPI_Comm_rank(comm, &rank_);
+    MPI_Comm_size(comm, &ranks_);
+    collectively(comm, [&] { case_ = readPahCase(deck); });
+    warnOfPressure();
+  }
+
+  [[nodiscard]] std::string summary() const override {
+    const Molecule start = case_.start();
+    return fmt::format("{} molecules from C{}H{}, {:g} to {:g} s, {} rows, {} times of constant rates", case_.repeats,
+                       start.carbon(), start.hydrogen(), case_.timeOf(0), case_.timeOf(case_.recorded.size() - 1),
+                       case_.recorded.size(), case_.growth.intervals.size());
+  }
+
+  void run(const RunOptions& options) override {
+    std::optional<WholeCheckpoint> restart;
+    PahProgress progress{0, GrowthSums(case_.recorded.size())};
+    if (options.restart) {
+      restart =
+          options.restart->empty() ? newestCheckpoint(comm_, options.folder) : wholeCheckpoint(comm_, *options.restart);
+      progress = loadPahProgress(comm_, *restart, case_);
+    }
+    recordedRun(comm_, deck_, options, case_.seed,
+                [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+                  if (restart) {
+                    record.restartedFrom = restart->file.string();
+                    printWarnings(restart->damaged);
+                    if (rank_ == 0)
+                      fmt::print("continues from {}, {} molecules\n", restart->file.string(), progress.done);
+                  }
+                  const double begin = MPI_Wtime();
+                  growAll(folder, progress);
+                  const double seconds = MPI_Wtime() - begin;
+                  record.stages = {{"molecules", seconds, seconds, seconds}};
+                  record.simulatedTime = case_.timeOf(case_.recorded.size() - 1) - case_.timeOf(0);
+                  record.steps = static_cast<std::int64_t>(progress.sums.events());
+                  record.peakMemoryPerRank = peakMemory(comm_);
+                  write(folder, info, progress.sums, record);
+                });
+  }
+
+ private:
+  // Rates of growth on free edges and zigzags, and of chains, are fits at one atmosphere.
+  void warnOfPressure() const {
+    constexpr double farFrom = 1.5;  // in either direction
+    for (const char* key : {"rates.file", "rates.growth_free_edge", "rates.growth_zigzag", "rates.chain_zigzag"})
+      if (deck_.isGiven(key)) return;
+    const auto far = std::ranges::find_if(case_.path.points, [](const GasSample& sample) {
+      return std::abs(std::log(sample.gas.pressure / constants::oneAtmosphere)) > std::log(farFrom);
+    });
+    if (far == case_.path.points.end()) return;
+    printWarnings(
+        {fmt::format("the gas has {:.3g} atm at {:.3g} s, and the rates growth_free_edge, growth_zigzag and "
+                     "chain_zigzag are fits at 1 "
+                     "atm; give those of your pressure (section rates)",
+                     far->gas.pressure / constants::oneAtmosphere, far->time)});
+  }
+
+  // Rounds of molecules, after each of which the run may stop or be saved.
+  void growAll(const RunFolder& folder, PahProgress& progress) {
+    const CheckpointFolder checkpoints(folder.path());
+    watchForCheckpointSignal();
+    Progress said(comm_, 0, static_cast<double>(case_.repeats), Progress::logInterval);
+    auto round = static_cast<std::uint64_t>(ranks_);
+    double saved = MPI_Wtime();
+    GrowthSums own = progress.sums;
+    const auto save = [&] {
+      said.finish();
+      progress.sums = own.ofAllRanks(comm_);
+      saved = MPI_Wtime();
+      return savePahProgress(comm_, checkpoints, case_, progress);
+    };
+    while (progress.done < case_.repeats) {
+      const double begin = MPI_Wtime();
+      const std::uint64_t end = std::min(progress.done + round, case_.repeats);
+      GrowthSums ofRound(case_.recorded.size());
+      collectively(comm_, [&] { growRound(progress.done, end, ofRound); });
+      int isDue = rank_ == 0 && (MPI_Wtime() - saved > case_.checkpointInterval || hasRequest(checkpoints)) ? 1 : 0;
+      int isShort = rank_ == 0 && MPI_Wtime() - begin < leastRound ? 1 : 0;
+      int isLong = rank_ == 0 && MPI_Wtime() - begin > longestRound ? 1 : 0;
+      if (takeCheckpointSignal()) isDue = 1;
+      int others[] = {isDue, isShort, isLong};
+      if (const int signal = agreedStopRequest(comm_, others); signal != 0) {
+        const std::filesystem::path file = save();  // without the round, in which a molecule may have been cut off
+        raiseStopped(comm_, signal, fmt::format("after {} molecules, which {} has", progress.done, file.string()));
+      }
+      collectively(comm_, [&] { own.add(ofRound); });
+      progress.done = end;
+      said.say(fmt::format("molecule {} of {}", progress.done, case_.repeats), static_cast<double>(progress.done));
+      if (others[1] != 0) round *= 2;
+      if (others[2] != 0) round = std::max(round / 2, static_cast<std::uint64_t>(ranks_));
+      if (others[0] != 0) (void)save();
+    }
+    said.finish();
+    progress.sums = own.ofAllRanks(comm_);
+    if (case_.checkpointAtEnd) (void)savePahProgress(comm_, checkpoints, case_, progress);
+  }
+
+  [[nodiscard]] static bool hasRequest(const CheckpointFolder& checkpoints) {
+    std::error_code ignored;
+    return std::filesystem::remove(checkpoints.request(), ignored);
+  }
+
+  // Those of this rank, from the first to before the end.
+  void growRound(std::uint64_t first, std::uint64_t end, GrowthSums& sums) const {
+    const Molecule start = case_.start();
+    const auto ranks = static_cast<std::uint64_t>(ranks_), rank = static_cast<std::uint64_t>(rank_);
+    for (std::uint64_t repeat = first; repeat < end; ++repeat) {
+      if (repeat % ranks != rank) continue;
+      if (stopRequest() != 0) return;
+      MoleculeGrowth growth = newMolecule(case_, start, repeat);
+      try {
+        const bool isWhole = growMolecule(case_, growth, [&](std::size_t row, const MoleculeGrowth& now) {
+          if (now.hasLeft()) return;
+          sums.add(row, now);
+          if (std::ranges::binary_search(case_.spectra, row)) sums.addFormula(row, now);
+        });
+        if (!isWhole) return;
+      } catch (const NumericsError& error) {
+        throw NumericsError(fmt::format("molecule {}: {}", repeat, error.what()));
+      }
+      sums.addEvents(sumOf(growth));
+    }
+  }
+
+  void write(const RunFolder& folder, const RunInfo& info, const GrowthSums& sums, RunRecord& record) const {
+    const PahTable history = pahHistory(case_, sums), spectrum = pahSpectrum(case_, sums), rates = pahRateTable(case_);
+    // They grow again, as their random numbers say.
+    std::vector<Molecule> drawn;
+    collectively(comm_, [&] {
+      const Molecule start = case_.start();
+      for (std::uint64_t repeat = 0; rank_ == 0 && repeat < case_.drawn; ++repeat) {
+        MoleculeGrowth growth = newMolecule(case_, start, repeat);
+        (void)growMolecule(
+            case_, growth, [](std::size_t, const MoleculeGrowth&) {}, false);
+        drawn.push_back(growth.molecule());
+      }
+      if (rank_ == 0) writeFileAtomically(folder.file("spectrum.csv"), csvTable(spectrum.columns, spectrum.rows));
+    });
+    ResultsWriter results(comm_, folder.results(), info);
+    HistoryWriter rows(comm_, folder.history(), history.columns);
+    rows.row(history.rows);
+    rows.writeTo(results);
+    results.table("/spectrum", spectrum.columns, spectrum.rows);
+    results.table("/rates", rates.columns, rates.rows);
+    writeMolecules(results, drawn);
+    results.close();
+    if (rank_ != 0) return;
+    JsonWriter json;
+    json.beginObject();
+    recordPah(json, case_, sums, history);
+    json.endObject();
+    record.resultsJson = json.text();
+    const std::size_t last = case_.recorded.size() - 1;
+    fmt::print("C {:.5g} +- {:.2g}, H {:.5g} +- {:.2g}, {} of {} molecules, {:.4g} events\n", sums.mean(last, 0),
+               sums.standardError(last, 0), sums.mean(last, 1), sums.standardError(last, 1), sums.count(last),
+               case_.repeats, static_cast<double>(sums.events()));
+  }
+
+  MPI_Comm comm_;
+  const Deck& deck_;
+  int rank_ = 0, ranks_ = 1;
+  PahCase case_;
+};
+
+}  // namespace
+
+std::unique_ptr<PreparedRun> preparePah(MPI_Comm comm, const Deck& deck) {
+  return std::make_unique<PreparedPah>(comm, deck);
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,160 @@
+// Closed reactors: history, ignition, sensitivities.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "app/problems/reactor/reactor_driver.hpp"
+#include "app/problems/reactor/reactor_history.hpp"
+#include "app/problems/reactor/reactor_output.hpp"
+#include "app/problems/reactor/reactor_particle_output.hpp"
+#include "chemistry/reactor/ignition_sensitivity.hpp"
+#include "core/stop_request.hpp"
+#include "io/progress.hpp"
+#include "io/report.hpp"
+
+namespace lampblack::app {
+namespace {
+
+// A change of temperature (K) below which nobody would speak of ignition.
+constexpr double kIgnited = 50;
+
+class ClosedReactorDriver : public ReactorOfOneRank {
+ public:
+  explicit ClosedReactorDriver(const ReactorCase& reactorCase)
+      : case_(reactorCase),
+        particles_(reactorCase, kept(reactorCase)),
+        history_(closedColumns(reactorCase), particles_.columns()),
+        events_(reactorCase.ignition.size()) {}
+
+  void compute(const RunFolder& folder) override {
+    const double begin = MPI_Wtime();
+    ClosedReactor reactor(
+        *case_.mechanism, case_.initial,
+        case_.type == ReactorType::ConstantPressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density,
+        case_.profile, case_.particles.get());
+    StiffIntegrator integrator(reactor, case_.integrator);
+    IgnitionMonitor monitor(*case_.mechanism, reactor, case_.ignition);
+    const std::vector<double> start = reactor.initialState();
+    startTemperature_ = start[case_.mechanism->numSpecies()];
+    integrator.start(0.0, start, case_.end);
+    monitor.begin(0.0, start.data());
+    history_.open(folder.history());
+    history_.follow(
+        integrator, case_.output.interval, case_.end, case_.profile,
+        [&](double time, std::span<const double> y) {
+          std::vector<double> row = closedRow(case_, reactor, time, y);
+          particles_.append(reactor.pressure(y.data()), reactor.density(y.data()), y, row);
+          return row;
+        },
+        [&] { monitor.observe(integrator); });
+    events_ = monitor.events();
+    statistics_ = integrator.statistics();
+    endTemperature_ = integrator.state()[case_.mechanism->numSpecies()];
+    endPressure_ = reactor.pressure(integrator.state().data());
+    reached_ = integrator.time();
+    seconds_ = MPI_Wtime() - begin;
+    particles_.requireSizeRangeCovered();
+    if (case_.sensitivities.empty() || reached_ < case_.end) return;
+    reactor.setParameters(case_.sensitivities);
+    Progress progress(MPI_COMM_SELF, 0, 1, Progress::logInterval);
+    sensitivities_ = ignitionSensitivities(*case_.mechanism, reactor, case_.integrator, case_.ignition, events_,
+                                           [&](double time, double end) {
+                                             if (progress.due())
+                                               progress.say(fmt::format("sensitivities, t {:.4g} s", time), time / end);
+                                             return stopRequest() == 0;
+                                           });
+    progress.finish();
+    sensitivitySeconds_ = MPI_Wtime() - begin - seconds_;
+    if (stopRequest() != 0) return;
+    writeFileAtomically(folder.file("sensitivities.csv"), sensitivityTable(*case_.mechanism, case_.sensitivities,
+                                                                           namedSensitivities(case_, sensitivities_)));
+  }
+
+  void write(ResultsWriter& results) const override {
+    history_.writeTo(results);
+    particles_.write(results);
+    writeIgnition(results, case_, events_);
+    // Rank 0 alone knows how far it came; what it has not computed is NaN.
+    if (!case_.sensitivities.empty())
+      writeSensitivities(results, case_.sensitivities, namedSensitivities(case_, sensitivities_),
+                         "d ln(ignition delay) / d ln(rate constant)");
+  }
+
+  void record(JsonWriter& json) const override {
+    json.key("ignition_delays_s").beginObject();
+    for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
+      json.key(case_.ignition[i].name);
+      if (events_[i])
+        json.value(events_[i]->time);
+      else
+        json.null();
+    }
+    json.endObject();
+    json.field("final_temperature_K", endTemperature_).field("final_pressure_Pa", endPressure_);
+    particles_.record(json);
+    json.field("rate_evaluations", static_cast<std::int64_t>(statistics_.rateEvaluations));
+    json.field("jacobian_evaluations", static_cast<std::int64_t>(statistics_.jacobianEvaluations));
+  }
+
+  void print() const override {
+    for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
+      const std::string what = describe(case_.ignition[i], *case_.mechanism);
+      if (events_[i])
+        fmt::print("ignition delay, {:<32} {:.6e} s\n", what, events_[i]->time);
+      else
+        fmt::print("ignition delay, {:<32} none in {:g} s\n", what, case_.end);
+    }
+    if (!case_.profile && !case_.ignition.empty() && std::abs(endTemperature_ - startTemperature_) < kIgnited)
+      fmt::print("note: the temperature changed by {:.2g} K only; this gas has not ignited\n",
+                 endTemperature_ - startTemperature_);
+    fmt::print("T = {:.4f} K, p = {:.6g} Pa after {:g} s\n", endTemperature_, endPressure_, case_.end);
+    particles_.print();
+    fmt::print("{} steps, {} rate and {} Jacobian evaluations of the integrator in {}\n", statistics_.steps,
+               statistics_.rateEvaluations, statistics_.jacobianEvaluations, formatDuration(seconds_));
+    if (!case_.sensitivities.empty()) printSensitivities();
+  }
+
+  long steps() const override { return statistics_.steps; }
+  double simulatedTime() const override { return reached_; }
+
+ private:
+  // The reactions the delay depends on most, by the first criterion that was met; all are in the files.
+  void printSensitivities() const {
+    fmt::print("sensitivities to {} reactions: {} steps in {}\n", case_.sensitivities.size(),
+               sensitivities_.statistics.steps, formatDuration(sensitivitySeconds_));
+    for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
+      const auto& values = sensitivities_.values[i];
+      if (values.empty()) continue;
+      fmt::print("\nd ln tau / d ln k by {}\n", describe(case_.ignition[i], *case_.mechanism));
+      fmt::print("{}", largestSensitivities(*case_.mechanism, case_.sensitivities, values, "exactly -1"));
+      return;
+    }
+  }
+
+  static ReactorParticleOutput::Kept kept(const ReactorCase& reactorCase) {
+    using Kept = ReactorParticleOutput::Kept;
+    if (reactorCase.profile) return Kept::elements;
+    return reactorCase.type == ReactorType::ConstantPressure ? Kept::enthalpy : Kept::internalEnergy;
+  }
+
+  const ReactorCase& case_;
+  ReactorParticleOutput particles_;
+  ReactorHistory history_;
+  std::vector<std::optional<IgnitionEvent>> events_;
+  IgnitionSensitivities sensitivities_;
+  StiffIntegrator::Statistics statistics_;
+  double reached_ = 0;  // s
+  double startTemperature_ = 0, endTemperature_ = 0, endPressure_ = 0;
+  double seconds_ = 0, sensitivitySeconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCase) {
+  return std::make_unique<ClosedReactorDriver>(reactorCase);
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,228 @@
+// Stirred reactors: the transient of one, the steady state of one or of a network.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/problems/reactor/reactor_driver.hpp"
+#include "app/problems/reactor/reactor_history.hpp"
+#include "app/problems/reactor/reactor_output.hpp"
+#include "app/problems/reactor/reactor_particle_output.hpp"
+#include "core/errors.hpp"
+#include "io/csv.hpp"
+#include "io/report.hpp"
+
+namespace lampblack::app {
+namespace {
+
+std::vector<Quantity> stirredColumns(const ReactorCase& reactorCase) {
+  std::vector<Quantity> columns{{"time", "s", "time"},
+                                {"temperature", "K", "gas temperature"},
+                                {"density", "kg/m^3", "density"},
+                                {"residence_time", "s", "mass inside over mass flow in"},
+                                {"heat_release", "W/m^3", "heat set free by the reactions"}};
+  for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
+  return columns;
+}
+
+class StirredTransientDriver : public ReactorOfOneRank {
+ public:
+  explicit StirredTransientDriver(const ReactorCase& reactorCase)
+      : case_(reactorCase),
+        particles_(reactorCase, ReactorParticleOutput::Kept::nothing),
+        history_(stirredColumns(reactorCase), particles_.columns()) {}
+
+  void compute(const RunFolder& folder) override {
+    const double begin = MPI_Wtime();
+    NetworkSystem system(*case_.mechanism, case_.network, case_.particles.get());
+    StiffIntegrator integrator(system, case_.integrator);
+    integrator.start(0.0, startUnknowns(*case_.mechanism, case_.network, case_.start, system.numCarried()), case_.end);
+    history_.open(folder.history());
+    const std::size_t n = case_.mechanism->numSpecies();
+    history_.follow(
+        integrator, case_.output.interval, case_.end, std::nullopt,
+        [&](double time, std::span<const double> y) {
+          std::vector<double> row{time, y[n], system.density(y.data()), system.residenceTime(y.data(), 0),
+                                  system.heatRelease(y.data(), 0)};
+          appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
+          particles_.append(case_.network.pressure, system.density(y.data()), y, row);
+          return row;
+        },
+        [] {});
+    steps_ = integrator.statistics().steps;
+    reached_ = integrator.time();
+    temperature_ = integrator.state()[n];
+    seconds_ = MPI_Wtime() - begin;
+    particles_.requireSizeRangeCovered();
+  }
+
+  void write(ResultsWriter& results) const override {
+    history_.writeTo(results);
+    particles_.write(results);
+  }
+  void record(JsonWriter& json) const override {
+    json.field("final_temperature_K", temperature_);
+    particles_.record(json);
+  }
+  void print() const override {
+    fmt::print("T = {:.4f} K after {:g} s\n", temperature_, case_.end);
+    particles_.print();
+    fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
+  }
+  long steps() const override { return steps_; }
+  double simulatedTime() const override { return reached_; }
+
+ private:
+  const ReactorCase& case_;
+  ReactorParticleOutput particles_;
+  ReactorHistory history_;
+  long steps_ = 0;
+  double reached_ = 0;  // s
+  double temperature_ = 0, seconds_ = 0;
+};
+
+class SteadyNetworkDriver : public ReactorOfOneRank {
+ public:
+  explicit SteadyNetworkDriver(const ReactorCase& reactorCase)
+      : case_(reactorCase), particles_(reactorCase, ReactorParticleOutput::Kept::nothing) {}
+
+  void compute(const RunFolder& folder) override {
+    const double begin = MPI_Wtime();
+    solve();
+    makeRows();
+    particles_.requireSizeRangeCovered();
+    seconds_ = MPI_Wtime() - begin;
+    std::string text = "name," + csvHeader(columns());
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      std::vector<std::string> fields{case_.network.reactors[r].name};
+      for (const double value : rows_[r]) fields.push_back(fmt::format("{}", value));
+      text += csvLine(fields);
+    }
+    writeFileAtomically(folder.file("reactors.csv"), text);
+  }
+
+  void write(ResultsWriter& results) const override {
+    std::vector<double> rows;
+    for (const auto& row : rows_) rows.insert(rows.end(), row.begin(), row.end());
+    results.table("/reactors", columns(), rows);
+    particles_.write(results);
+    std::vector<std::string> names;
+    for (const StirredReactor& reactor : case_.network.reactors) names.push_back(reactor.name);
+    std::string line = csvLine(names);
+    line.pop_back();
+    results.attribute("/reactors", "names", line);
+    for (std::size_t r = 0; r < reactors_.size(); ++r)
+      if (reactors_[r].out)
+        results.attribute("/reactors", "last_burning_residence_time_" + names[r],
+                          reactors_[r].lastBurningTime.value_or(NAN));
+  }
+
+  void record(JsonWriter& json) const override {
+    json.key("reactors").beginObject();
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      json.key(case_.network.reactors[r].name).beginObject();
+      json.field("temperature_K", reactors_[r].state.temperature);
+      json.field("residence_time_s", reactors_[r].residenceTime).field("residual", reactors_[r].residual);
+      recordOut(json, reactors_[r]);
+      if (case_.particles) {
+        const std::string material = case_.soot->material() + "_";
+        for (const auto& p : particlePropertyNames) json.field(material + p.name, properties_[r].*p.value);
+        json.field("element_imbalance", balances_[r].elements).field("energy_imbalance", balances_[r].energy);
+      }
+      json.endObject();
+    }
+    json.endObject();
+  }
+
+  void print() const override {
+    fmt::print("{:<16} {:>10} {:>14} {:>12} {:>12} {:>12} {:>10}\n", "reactor", "T, K", "residence, s", "volume, m3",
+               "flow, kg/s", "heat, W", "residual");
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      const ReactorSteadyState& s = reactors_[r];
+      fmt::print("{:<16} {:>10.4f} {:>14.6e} {:>12.4e} {:>12.4e} {:>12.4e} {:>10.1e}\n", case_.network.reactors[r].name,
+                 s.state.temperature, s.residenceTime, s.volume, s.massFlow, s.heatRelease * s.volume, s.residual);
+    }
+    for (std::size_t r = 0; r < properties_.size(); ++r)
+      fmt::print(
+          "{:<16} {} volume fraction {:.4g}, mean diameter {:.4g} nm; elements balance to {:.1e}, energy to {:.1e}\n",
+          case_.network.reactors[r].name, case_.soot->material(), properties_[r].volumeFraction,
+          1e9 * properties_[r].meanDiameter, balances_[r].elements, balances_[r].energy);
+    for (std::size_t r = 0; r < reactors_.size(); ++r)
+      fmt::print("{}", outLine(case_.network.reactors[r].name, reactors_[r]));
+    fmt::print("{} steps of the integrator in {}\n", steps(), formatDuration(seconds_));
+  }
+
+  long steps() const override {
+    long sum = 0;
+    for (const auto& group : solutionOrder(case_.network)) sum += reactors_[group.front()].steps;
+    return sum;
+  }
+  double simulatedTime() const override { return 0.0; }
+
+ private:
+  std::vector<Quantity> columns() const {
+    std::vector<Quantity> columns{{"temperature", "K", "gas temperature"},
+                                  {"density", "kg/m^3", "density"},
+                                  {"volume", "m^3", "volume"},
+                                  {"residence_time", "s", "mass inside over mass flow"},
+                                  {"mass_flow", "kg/s", "mass flow through the reactor"},
+                                  {"heat_release", "W/m^3", "heat set free by the reactions"}};
+    for (auto& column : speciesColumns(*case_.mechanism, case_.output)) columns.push_back(std::move(column));
+    for (auto& column : particles_.columns()) columns.push_back(std::move(column));
+    if (!case_.particles) return columns;
+    columns.push_back({"element_imbalance", "1", "largest difference of an element between what comes in and leaves"});
+    columns.push_back({"energy_imbalance", "1", "the same of energy over cp T; zero where the temperature is given"});
+    return columns;
+  }
+
+  void solve() {
+    try {
+      reactors_ = solveNetwork(*case_.mechanism, case_.network, case_.start, case_.particles.get());
+    } catch (const NumericsError& error) {
+      if (!case_.particles) throw;
+      throw NumericsError(fmt::format(
+          "{}. Particles in a stirred reactor may have no steady state: those there are take what new ones would be "
+          "made of, and both rise and fall in turn; 'time.end' of a single reactor shows it",
+          error.what()));
+    }
+  }
+
+  void makeRows() {
+    if (case_.particles) balances_ = steadyBalances(*case_.mechanism, *case_.particles, case_.network, reactors_);
+    for (std::size_t r = 0; r < reactors_.size(); ++r) {
+      const ReactorSteadyState& s = reactors_[r];
+      rows_.push_back(row(s));
+      if (!case_.particles) continue;
+      const std::vector<double> y = unknownsOf(s.state, case_.particles->size());
+      particles_.append(s.state.pressure, s.density, y, rows_.back());
+      properties_.push_back(particles_.last());
+      rows_.back().insert(rows_.back().end(), {balances_[r].elements, balances_[r].energy});
+    }
+  }
+
+  std::vector<double> row(const ReactorSteadyState& s) const {
+    std::vector<double> row{s.state.temperature, s.density, s.volume, s.residenceTime, s.massFlow, s.heatRelease};
+    appendSpecies(*case_.mechanism, case_.output, s.state.Y, row);
+    return row;
+  }
+
+  const ReactorCase& case_;
+  ReactorParticleOutput particles_;
+  std::vector<ReactorSteadyState> reactors_;
+  std::vector<std::vector<double>> rows_;
+  std::vector<ParticleProperties> properties_;  // empty without particles
+  std::vector<SteadyBalance> balances_;
+  double seconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase) {
+  return std::make_unique<StirredTransientDriver>(reactorCase);
+}
+
+std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase) {
+  return std::make_unique<SteadyNetworkDriver>(reactorCase);
+}
+
+}  // namespace lampblack::app

@@ -1,0 +1,45 @@
+// The tables of a reactor run: their columns and rows, and what the sensitivities leave.
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/deck/sensitivity_deck.hpp"
+#include "app/problems/reactor/reactor_case.hpp"
+#include "chemistry/reactor/ignition_sensitivity.hpp"
+#include "core/modules.hpp"
+#include "io/json.hpp"
+#include "io/results_writer.hpp"
+#include "io/run_folder.hpp"
+
+namespace lampblack::app {
+
+// The columns of the chosen species, and their values at mass fractions Y.
+std::vector<Quantity> speciesColumns(const Mechanism& mechanism, const ReactorOutput& output);
+void appendSpecies(const Mechanism& mechanism, const ReactorOutput& output, std::span<const double> Y,
+                   std::vector<double>& row);
+
+// Columns of a closed reactor's history, and a row at a time (s) of it.
+std::vector<Quantity> closedColumns(const ReactorCase& reactorCase);
+std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& reactor, double time,
+                              std::span<const double> y);
+
+// Of the ignition delays, by the criteria of the deck.
+std::vector<Sensitivities> namedSensitivities(const ReactorCase& reactorCase,
+                                              const IgnitionSensitivities& sensitivities);
+
+// The group /ignition. Collective; rank 0 has the values.
+void writeIgnition(ResultsWriter& results, const ReactorCase& reactorCase,
+                   const std::vector<std::optional<IgnitionEvent>>& events);
+
+// A line for the console on a stirred reactor that is out; empty for others.
+std::string outLine(const std::string& name, const ReactorSteadyState& reactor);
+// The fields of a stirred reactor that is out, in the record of the run.
+void recordOut(JsonWriter& json, const ReactorSteadyState& reactor);
+
+// "largest dT/dt": a criterion in words.
+std::string describe(const IgnitionCriterion& criterion, const Mechanism& mechanism);
+
+}  // namespace lampblack::app

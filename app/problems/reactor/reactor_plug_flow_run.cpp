@@ -1,0 +1,105 @@
+// Plug flow: the history along the duct.
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "app/problems/reactor/reactor_driver.hpp"
+#include "app/problems/reactor/reactor_history.hpp"
+#include "app/problems/reactor/reactor_output.hpp"
+#include "app/problems/reactor/reactor_particle_output.hpp"
+#include "app/problems/reactor/reactor_upstream.hpp"
+#include "chemistry/reactor/plug_flow.hpp"
+#include "io/report.hpp"
+
+namespace lampblack::app {
+namespace {
+
+std::vector<Quantity> plugFlowColumns(const ReactorCase& reactorCase) {
+  std::vector<Quantity> columns{{"position", "m", "distance from the inlet"},
+                                {"time", "s", "residence time since the inlet"},
+                                {"velocity", "m/s", "velocity of the gas"},
+                                {"temperature", "K", "gas temperature"},
+                                {"density", "kg/m^3", "density"}};
+  for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
+  return columns;
+}
+
+class PlugFlowDriver : public ReactorOfOneRank {
+ public:
+  explicit PlugFlowDriver(const ReactorCase& reactorCase)
+      : case_(reactorCase),
+        particles_(reactorCase,
+                   reactorCase.profile ? ReactorParticleOutput::Kept::elements : ReactorParticleOutput::Kept::enthalpy),
+        history_(plugFlowColumns(reactorCase), particles_.columns()) {}
+
+  void compute(const RunFolder& folder) override {
+    const double begin = MPI_Wtime();
+    if (case_.upstream) upstream_ = steadyUpstream(case_, case_.particles.get());
+    const GasState& inlet = upstream_ ? upstream_->state : case_.inlet;
+    PlugFlow flow(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, case_.particles.get());
+    StiffIntegrator integrator(flow, case_.integrator);
+    integrator.start(0.0, flow.initialState(), case_.length);
+    history_.open(folder.history());
+    const std::size_t n = case_.mechanism->numSpecies();
+    history_.follow(
+        integrator, case_.output.interval, case_.length, case_.profile,
+        [&](double z, std::span<const double> y) {
+          std::vector<double> row{z, flow.residenceTime(y.data()), flow.velocity(y.data()), y[n],
+                                  flow.density(y.data())};
+          appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
+          particles_.append(case_.inlet.pressure, flow.density(y.data()), y, row);
+          return row;
+        },
+        [] {});
+    steps_ = integrator.statistics().steps;
+    temperature_ = integrator.state()[n];
+    velocity_ = flow.velocity(integrator.state().data());
+    time_ = flow.residenceTime(integrator.state().data());
+    seconds_ = MPI_Wtime() - begin;
+    particles_.requireSizeRangeCovered();
+  }
+
+  void write(ResultsWriter& results) const override {
+    history_.writeTo(results);
+    particles_.write(results);
+  }
+
+  void record(JsonWriter& json) const override {
+    json.field("final_temperature_K", temperature_).field("final_velocity_m_per_s", velocity_);
+    json.field("residence_time_s", time_);
+    if (upstream_) {
+      json.key("upstream").beginObject();
+      json.field("temperature_K", upstream_->state.temperature);
+      recordOut(json, *upstream_);
+      json.endObject();
+    }
+    particles_.record(json);
+  }
+
+  void print() const override {
+    fmt::print("T = {:.4f} K, u = {:.6g} m/s at z = {:g} m, {:.6e} s after the inlet\n", temperature_, velocity_,
+               case_.length, time_);
+    particles_.print();
+    if (upstream_) fmt::print("{}", outLine("upstream", *upstream_));
+    fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
+  }
+
+  long steps() const override { return steps_; }
+  double simulatedTime() const override { return time_; }
+
+ private:
+  const ReactorCase& case_;
+  ReactorParticleOutput particles_;
+  ReactorHistory history_;
+  std::optional<ReactorSteadyState> upstream_;
+  long steps_ = 0;
+  double temperature_ = 0, velocity_ = 0, time_ = 0, seconds_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase) {
+  return std::make_unique<PlugFlowDriver>(reactorCase);
+}
+
+}  // namespace lampblack::app
