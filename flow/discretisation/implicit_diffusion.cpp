@@ -166,8 +166,9 @@ std::vector<double> ImplicitDiffusion::radii(int fields, std::span<const double>
   return largest;
 }
 
-void ImplicitDiffusion::begin(Group& group, std::span<const int> fields, int all, std::span<const double> change,
-                              const Conductance& conductance, std::span<const double> sinks) {
+void ImplicitDiffusion::begin(Group& group, std::span<const int> fields, int all, std::span<const double> inertia,
+                              std::span<const double> change, const Conductance& conductance,
+                              std::span<const double> sinks) {
   const Mesh& m = mesh_;
   group.fields.assign(fields.begin(), fields.end());
   group.conductance.resize(static_cast<std::size_t>(m.faces) * width);
@@ -186,6 +187,15 @@ void ImplicitDiffusion::begin(Group& group, std::span<const int> fields, int all
   group.sinks.assign(sinks.empty() ? 0 : static_cast<std::size_t>(m.owned) * width, 0.0);
   for (int c = 0; c < m.owned && !sinks.empty(); ++c)
     for (std::size_t k = 0; k < fields.size(); ++k) group.sinks[c * width + k] = sinks[c * all + fields[k]];
+  group.diagonal.resize(group.residual.size());
+  for (int c = 0; c < m.owned; ++c) {
+    double* diagonal = &group.diagonal[c * width];
+    for (int k = 0; k < width; ++k) diagonal[k] = inertia[c] + (sinks.empty() ? 0.0 : group.sinks[c * width + k]);
+    for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
+      const float* through = &group.conductance[m.faceOfCell[i] * width];
+      for (int k = 0; k < width; ++k) diagonal[k] += through[k];
+    }
+  }
 }
 
 // One iteration: the next change from the last one.
@@ -194,19 +204,13 @@ void ImplicitDiffusion::iterate(Group& group, std::span<const double> old, std::
   const Mesh& m = mesh_;
   for (int c = 0; c < m.owned; ++c) {
     const double* own = &group.change[c * width];
-    std::array<double, width> taken, diagonal;
+    std::array<double, width> taken;
     for (int k = 0; k < width; ++k) taken[k] = inertia[c] * own[k];
-    diagonal.fill(inertia[c]);
     if (!group.sinks.empty())
-      for (int k = 0; k < width; ++k) {
-        const double sink = group.sinks[c * width + k];
-        taken[k] += sink * own[k];
-        diagonal[k] += sink;
-      }
+      for (int k = 0; k < width; ++k) taken[k] += group.sinks[c * width + k] * own[k];
     for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
       const int face = m.faceOfCell[i];
       const float* g = &group.conductance[face * width];
-      for (int k = 0; k < width; ++k) diagonal[k] += g[k];
       if (m.high[face] < 0) {
         for (int k = 0; k < width; ++k) taken[k] += g[k] * own[k];
         continue;
@@ -214,6 +218,7 @@ void ImplicitDiffusion::iterate(Group& group, std::span<const double> old, std::
       const double* other = &group.change[(m.low[face] == c ? m.high[face] : m.low[face]) * width];
       for (int k = 0; k < width; ++k) taken[k] += g[k] * (own[k] - other[k]);
     }
+    const double* diagonal = &group.diagonal[c * width];
     double* residual = &group.residual[c * width];
     double* changed = &group.otherChange[c * width];
     double* x = &group.solution[c * width];
@@ -249,7 +254,7 @@ ImplicitDiffusion::Result ImplicitDiffusion::changes(int fields, std::span<const
     for (std::size_t i = 0; i < batch.size(); ++i) {
       const std::size_t begins = (first + i) * width;
       const std::span<const int> of{order.data() + begins, std::min<std::size_t>(width, order.size() - begins)};
-      begin(batch[i], of, fields, change, conductance, sinks);
+      begin(batch[i], of, fields, inertia, change, conductance, sinks);
       batch[i].iterations = iterationsFor(m.comm, radius[of.front()], tolerance, maxIterations);
       most = std::max(most, batch[i].iterations);
     }

@@ -67,10 +67,11 @@ class ImplicitDiffusion {
     // Single precision moves a solution by 1e-7 of the change that fluxes make; the fluxes that cells exchange are
     // evaluated from it with conductances of double precision.
     std::vector<float> conductance;
-    std::vector<double> sinks;  // empty without
+    std::vector<double> sinks;     // empty without
+    std::vector<double> diagonal;  // of owned cells
   };
-  void begin(Group& group, std::span<const int> fields, int all, std::span<const double> change,
-             const Conductance& conductance, std::span<const double> sinks);
+  void begin(Group& group, std::span<const int> fields, int all, std::span<const double> inertia,
+             std::span<const double> change, const Conductance& conductance, std::span<const double> sinks);
   void iterate(Group& group, std::span<const double> old, std::span<const double> fresh,
                std::span<const double> inertia);
 

@@ -10,6 +10,7 @@
 #include "core/errors.hpp"
 #include "core/group_failure.hpp"
 #include "flow/cell_errors.hpp"
+#include "flow/models/asked_again.hpp"
 #include "flow/models/constant_pressure_cells.hpp"
 
 namespace lampblack::flow {
@@ -23,8 +24,6 @@ constexpr double outrunning = 1.0;  // growth in a step beyond which cells are c
 constexpr int mostParts = 60;
 // Only where a species changes by more than that in a step is it asked how fast its reactions grow.
 constexpr double changeThatCounts = 0.01;
-// One in which nothing grew is asked again after so many steps, or once a step changes so much more.
-constexpr double stepsUnasked = 8.0, moreChange = 1.25;
 // A cell that reacts less than that share of what it did when it outran a step is no foot of a flame any more: what is
 // left of its growth rate after a step.
 constexpr double slowShare = 0.25, forgotten = 0.8;
@@ -50,7 +49,7 @@ ReactionOperator::ReactionOperator(const FlowContext& context, Options options, 
       grows_(initialStep_.size()),
       fastest_(initialStep_.size()),
       askedChange_(initialStep_.size()),
-      askedAgo_(initialStep_.size()) {}
+      unasked_(initialStep_.size()) {}
 
 // Of the gas in which transport counts the rate as one per mass.
 double ReactionOperator::densityOfRate(const State& state, std::size_t cell) const {
@@ -167,9 +166,8 @@ bool ReactionOperator::findOutrunning(const State& state, double dt) {
       grows = fastest_[cell] = askedChange_[cell] = 0.0;
       continue;
     }
-    if (grows == 0.0 && change < moreChange * askedChange_[cell] && ++askedAgo_[cell] < stepsUnasked) continue;
-    askedChange_[cell] = change;
-    askedAgo_[cell] = 0.0;
+    const bool isDue = AskedAgain::isDue(change, askedChange_[cell], unasked_[cell]);
+    if (grows == 0.0 && !isDue) continue;
     const CellMixing mixing = mixingOf(cell);
     double growth = growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n}, dt,
                                    mixing.reactingShare);
@@ -333,7 +331,7 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
   archive.cells("reaction_growth", grows_, 1);
   archive.cells("reaction_speed", fastest_, 1);
   archive.cells("reaction_change_when_asked", askedChange_, 1);
-  archive.cells("reaction_steps_unasked", askedAgo_, 1);
+  archive.cells("reaction_steps_unasked", unasked_, 1);
   std::array<double, 7> counted{diagnostics_.solverSteps,     diagnostics_.integratedCells, diagnostics_.skippedCells,
                                 diagnostics_.handedOverCells, diagnostics_.retries,         diagnostics_.coupledCells,
                                 diagnostics_.limitedCells};

@@ -130,7 +130,7 @@ class ReactionOperator : public Operator {
   std::vector<double> grows_;            // 1/s, the largest growth rate that a burning cell has had, owned cells
   std::vector<double> fastest_;          // 1/s, of any species, the fastest that it has reacted meanwhile
   std::vector<double> askedChange_;      // of a mass fraction in the step at whose begin the growth rate was last found
-  std::vector<double> askedAgo_;         // steps since
+  std::vector<double> unasked_;          // steps until it is found again
   double growth_ = 0.0;                  // 1/s, the largest of them
   double growthInStep_ = 0.0;            // the largest of the last step's start, times that step
   int parts_ = 1;

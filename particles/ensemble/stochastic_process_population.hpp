@@ -72,10 +72,11 @@ void StochasticProcess<Method>::join(std::span<const GivenParticle> particles, d
   coming.reserve(particles.size());
   for (const GivenParticle& p : particles) {
     const double number = share * p.number;
-    coming.push_back({type_.make(p.carbon, p.hydrogen, p.primaries), number});
+    coming.push_back({{p.carbon, p.hydrogen, p.primaries, 0}, number});
     mean.carbon += number * p.carbon;
     mean.hydrogen += number * p.hydrogen;
   }
+  type_.findDiameters(coming.size(), [&](std::size_t k) -> Particle& { return coming[k].particle; });
   if constexpr (weighted)
     method_.join(coming, std::min(share, 1.0), random_);
   else
@@ -132,12 +133,18 @@ void StochasticProcess<Method>::unpack(std::span<const double> values) {
     requireParticle(p, -0.5 * p.carbon);
     if (!weighted && p.number != memory[0])
       throw InputError("stochastic soot: the saved state is damaged: particles of equal weight differ in it");
-    const Particle particle = type_.make(p.carbon, p.hydrogen, p.primaries);
+    const Particle particle{p.carbon, p.hydrogen, p.primaries, 0};
     if constexpr (weighted)
       entries.push_back({particle, p.number});
     else
       entries.push_back(particle);
   }
+  type_.findDiameters(entries.size(), [&](std::size_t k) -> Particle& {
+    if constexpr (weighted)
+      return entries[k].particle;
+    else
+      return entries[k];
+  });
   method_.restore(memory, std::move(entries));
 }
 

@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "core/constants.hpp"
 #include "core/cube_root.hpp"
@@ -47,6 +48,33 @@ class SootAggregate {
     return p;
   }
 
+  // Makes n particles whose diameters are not there yet: f(k) is that one. To the bits of make(), in vector lanes where
+  // they are spheres.
+  template <class F>
+  void findDiameters(std::size_t n, F f) const {
+    constexpr std::size_t block = 64;
+    double diameter[block];
+    for (std::size_t k = 0; k < n && !coalescing(); ++k) f(k) = make(f(k).carbon, f(k).hydrogen, f(k).primaries);
+    for (std::size_t first = 0; first < n && coalescing(); first += block) {
+      const std::size_t count = std::min(block, n - first);
+      for (std::size_t k = 0; k < count; ++k) diameter[k] = perVolume() * mass(f(first + k));
+      takeRoots(diameter, count);
+      for (std::size_t k = 0; k < count; ++k) {
+        f(first + k).primaries = 1;
+        f(first + k).diameter = diameter[k];
+      }
+    }
+  }
+  // Lengths (m) in place of n cubes of them (m3).
+  static void takeRoots(double* cubes, std::size_t n) {
+    double least = 1;
+    for (std::size_t k = 0; k < n; ++k) least = std::min(least, cubes[k]);
+    if (least > leastCube)
+      for (std::size_t k = 0; k < n; ++k) cubes[k] = normalCubeRoot(cubes[k]);
+    else
+      for (std::size_t k = 0; k < n; ++k) cubes[k] = cubeRoot(cubes[k]);
+  }
+
   [[nodiscard]] double density() const { return density_; }
   [[nodiscard]] SootShape shape() const { return shape_; }
   [[nodiscard]] bool coalescing() const { return shape_ == SootShape::spheres; }
@@ -56,8 +84,9 @@ class SootAggregate {
   [[nodiscard]] double volume(const Particle& p) const { return mass(p) / density_; }
   [[nodiscard]] double collisionDiameter(const Particle& p) const { return p.diameter; }
   [[nodiscard, gnu::always_inline]] inline double primaryDiameter(const Particle& p) const {
-    const double cube = perVolume() * mass(p) / p.primaries;
-    return cube > 1e-290 ? normalCubeRoot(cube) : std::cbrt(cube);
+    // Spheres have one: no division that an event would wait for.
+    const double cube = coalescing() ? perVolume() * mass(p) : perVolume() * mass(p) / p.primaries;
+    return cube > leastCube ? normalCubeRoot(cube) : std::cbrt(cube);
   }
   [[nodiscard]] double surface(const Particle& p) const {
     const double d = primaryDiameter(p);
@@ -130,6 +159,7 @@ class SootAggregate {
     return std::max(1.0, perMass * perMass * measure);
   }
 
+  static constexpr double leastCube = 1e-290;  // m3, of normalCubeRoot()
   double density_, inverseDimension_;
   SootShape shape_;
 };
