@@ -79,7 +79,7 @@ double CellParticles::volumeOf(std::span<const double> amounts) const {
 }
 
 void CellParticles::addAmounts(std::span<const double> population, std::span<double> amounts) const {
-  rows().forEach(rows().of(population), [&](const double* row) { addAmounts(row, row[packedNumberAt], amounts); });
+  population_->addAmountsOf(rows().of(population), amounts);
 }
 
 CellParticles::Change CellParticles::advance(std::span<const double> population, std::span<const double> arrived,

@@ -73,7 +73,8 @@ PathEnsemble runPathEnsemble(MPI_Comm comm, const ParticlePath& path, const Make
     const auto population = make(firstOwner);
     result.material = population->material();
     result.columns = population->columns();
-    result.processes = population->processes();
+    const auto processes = population->processes();
+    result.processes.assign(processes.begin(), processes.end());
     result.counts = population->counts();
     for (auto& count : result.counts) count.second = 0;
     at = {march.recorded.empty() ? path.points.size() : march.recorded.size(),

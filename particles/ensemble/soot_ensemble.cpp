@@ -8,27 +8,27 @@
 #include "particles/ensemble/packed_ensemble.hpp"
 #include "particles/models/soot_model.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
+#include "particles/soot/soot_steps.hpp"
 
 namespace lampblack::particles {
 namespace {
 
 constexpr std::uint32_t startStream = 0x53544152;
 
-struct SootProcess {
-  const char *name, *unit, *description;
-  double EnsembleExchange::*amount;
-};
-constexpr SootProcess sootProcesses[] = {
-    {"nucleation_number", "1/m^3", "new particles", &EnsembleExchange::nucleatedNumber},
-    {"oxidation_number", "1/m^3", "particles oxidised away", &EnsembleExchange::oxidisedNumber},
-    {"nucleation", "kg/m^3", "soot mass from nucleation", &EnsembleExchange::nucleated},
-    {"condensation", "kg/m^3", "soot mass from condensation", &EnsembleExchange::condensed},
-    {"growth", "kg/m^3", "soot mass from surface growth", &EnsembleExchange::grown},
-    {"oxidation_O2", "kg/m^3", "soot mass lost by oxidation by O2", &EnsembleExchange::oxidisedO2},
-    {"oxidation_OH", "kg/m^3", "soot mass lost by oxidation by OH", &EnsembleExchange::oxidisedOH},
-    {"dilution_carbon", "kg/m^3", "carbon lost by the expansion of the gas", &EnsembleExchange::dilutedCarbon},
-    {"resampled_carbon", "kg/m^3", "carbon of numerical particles that come and go, zero in the mean",
-     &EnsembleExchange::resampledCarbon}};
+std::vector<ProcessOf<EnsembleExchange>> sootProcesses(const SootModelOptions& soot) {
+  using E = EnsembleExchange;
+  const SpeciesExchanged dimers = exchangedByDimers(soot);
+  return {{{{"nucleation_number", "1/m^3", "new particles"}, dimers}, &E::nucleatedNumber},
+          {{{"oxidation_number", "1/m^3", "particles oxidised away"}}, &E::oxidisedNumber},
+          {{{"nucleation", "kg/m^3", "soot mass from nucleation"}, dimers}, &E::nucleated},
+          {{{"condensation", "kg/m^3", "soot mass from condensation"}, dimers}, &E::condensed},
+          {{{"growth", "kg/m^3", "soot mass from surface growth"}, exchangedByGrowth()}, &E::grown},
+          {{{"oxidation_O2", "kg/m^3", "soot mass lost by oxidation by O2"}, exchangedByO2()}, &E::oxidisedO2},
+          {{{"oxidation_OH", "kg/m^3", "soot mass lost by oxidation by OH"}, exchangedByOH()}, &E::oxidisedOH},
+          {{{"dilution_carbon", "kg/m^3", "carbon lost by the expansion of the gas"}}, &E::dilutedCarbon},
+          {{{"resampled_carbon", "kg/m^3", "carbon of numerical particles that come and go, zero in the mean"}},
+           &E::resampledCarbon}};
+}
 
 }  // namespace
 
@@ -37,7 +37,8 @@ SootEnsemble::SootEnsemble(const Mechanism& mechanism, EnsembleOptions options, 
                             indicesOfSootSpecies(mechanism, options.soot),
                             {"C", "H"},
                             {sootAggregate(options), {packedHead, false}}}),
-      ensemble_(makeEnsemble(std::move(options))) {
+      ensemble_(makeEnsemble(std::move(options))),
+      processes_(sootProcesses(ensemble_->options().soot)) {
   if (!(start.number > 0)) return;
   const EnsembleOptions& own = ensemble_->options();
   RandomStream random(own.seed, own.owner, startStream);
@@ -68,18 +69,6 @@ std::vector<std::size_t> SootEnsemble::pathSpecies() const {
   return places;
 }
 
-std::vector<Quantity> SootEnsemble::processes() const {
-  std::vector<Quantity> all;
-  for (const SootProcess& process : sootProcesses) all.push_back({process.name, process.unit, process.description});
-  return all;
-}
-
-std::vector<double> SootEnsemble::amountsOfProcesses() const {
-  std::vector<double> all;
-  for (const SootProcess& process : sootProcesses) all.push_back(taken_.*process.amount);
-  return all;
-}
-
 std::vector<double> SootEnsemble::content() {
   std::vector<double> content;
   for (const GivenParticle& p : ensemble_->particles()) packDoubles(content, p);
@@ -97,6 +86,24 @@ void SootEnsemble::addAmounts(const double* row, double number, std::span<double
   particle.number = number;
   Ensemble::Totals t;
   addTo(t, sizes().type, particle);
+  std::size_t place = 0;
+  for (const double amount : {t.number, t.carbon, t.hydrogen, t.primaries, t.surface, t.diameters})
+    amounts[place++] += amount;
+}
+
+void SootEnsemble::addAmountsOf(std::span<const double> of, std::span<double> amounts) const {
+  constexpr std::size_t atATime = 64 * packedParticle;
+  const SootAggregate& type = sizes().type;
+  Ensemble::Totals t;
+  for (; !of.empty(); of = of.subspan(std::min(atATime, of.size()))) {
+    const std::span<const double> rows = of.first(std::min(atATime, of.size()));
+    double diameters[atATime / packedParticle];
+    for (std::size_t i = 0; i < rows.size(); i += packedParticle)
+      diameters[i / packedParticle] = type.perVolume() * massAt(&rows[i]) / rows[i + 2];
+    SootAggregate::takeRoots(diameters, rows.size() / packedParticle);
+    for (std::size_t i = 0; i < rows.size(); i += packedParticle)
+      addTo(t, particleAt(&rows[i]), diameters[i / packedParticle]);
+  }
   std::size_t place = 0;
   for (const double amount : {t.number, t.carbon, t.hydrogen, t.primaries, t.surface, t.diameters})
     amounts[place++] += amount;

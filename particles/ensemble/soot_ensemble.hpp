@@ -37,8 +37,8 @@ class SootEnsemble final : public StochasticPopulation {
   [[nodiscard]] std::vector<double> resampled() const override {
     return {taken_.resampledCarbon, taken_.resampledHydrogen};
   }
-  [[nodiscard]] std::vector<Quantity> processes() const override;
-  [[nodiscard]] std::vector<double> amountsOfProcesses() const override;
+  [[nodiscard]] std::vector<ParticleProcess> processes() const override { return namesOf(processes_); }
+  [[nodiscard]] std::vector<double> amountsOfProcesses() const override { return amountsOf(processes_, taken_); }
   void dilute(double factor) override { ensemble_->dilute(factor); }
   [[nodiscard]] std::size_t size() const override { return ensemble_->size(); }
   [[nodiscard]] std::uint64_t removals() const override { return ensemble_->counters().removals; }
@@ -49,6 +49,7 @@ class SootEnsemble final : public StochasticPopulation {
   [[nodiscard]] std::vector<double> content() override;
   void join(std::span<const double> rows, double share) override;
   void addAmounts(const double* row, double number, std::span<double> amounts) const override;
+  void addAmountsOf(std::span<const double> of, std::span<double> amounts) const override;
   [[nodiscard]] std::vector<Quantity> columns() const override;
   [[nodiscard]] std::vector<double> values(const ParticleGas& gas) const override;
   [[nodiscard]] std::vector<std::pair<std::string, double>> counts() const override;
@@ -61,6 +62,7 @@ class SootEnsemble final : public StochasticPopulation {
  private:
   std::unique_ptr<Ensemble> ensemble_;
   EnsembleExchange taken_;  // by the last takeExchange()
+  std::vector<ProcessOf<EnsembleExchange>> processes_;
 };
 
 }  // namespace lampblack::particles

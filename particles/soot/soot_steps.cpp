@@ -115,4 +115,19 @@ void exchangeSurface(const SootModelOptions& soot, const SootTransfer& all, Soot
   gas[S::H2] += 0.5 * all.growth * perCarbon + (all.hydrogenO2 + all.hydrogenOH) * perH2;
 }
 
+SpeciesExchanged exchangedByDimers(const SootModelOptions& soot) {
+  SpeciesExchanged gas{{}, {SootSpecies::H2}};
+  for (std::size_t i = 0; i < soot.pah.size(); ++i) gas.takes.push_back(SootSpecies::fixed + i);
+  return gas;
+}
+SpeciesExchanged exchangedByGrowth() {
+  return {{SootSpecies::C2H2}, {SootSpecies::H2}};
+}
+SpeciesExchanged exchangedByO2() {
+  return {{SootSpecies::O2}, {SootSpecies::CO, SootSpecies::H2}};
+}
+SpeciesExchanged exchangedByOH() {
+  return {{SootSpecies::OH}, {SootSpecies::CO, SootSpecies::H, SootSpecies::H2}};
+}
+
 }  // namespace lampblack::particles

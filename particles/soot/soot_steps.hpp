@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/modules.hpp"
+#include "particles/gas/species_exchanged.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/soot/soot_columns.hpp"
 
@@ -43,5 +44,10 @@ struct SootPopulationLaw {
 // moved (surface_chemistry.hpp).
 void exchangeDimers(const SootMedium& medium, const SootModelOptions& soot, double dimers, SootSpeciesArray& gas);
 void exchangeSurface(const SootModelOptions& soot, const SootTransfer& moved, SootSpeciesArray& gas);
+// Which species these are, of dimers (inception and condensation) and of each surface reaction.
+[[nodiscard]] SpeciesExchanged exchangedByDimers(const SootModelOptions& soot);
+[[nodiscard]] SpeciesExchanged exchangedByGrowth();
+[[nodiscard]] SpeciesExchanged exchangedByO2();
+[[nodiscard]] SpeciesExchanged exchangedByOH();
 
 }  // namespace lampblack::particles

@@ -32,6 +32,10 @@ void StochasticPopulation::advanceDiverging(const ParticleGas& gas, double diver
   dilute(half);
 }
 
+void StochasticPopulation::addAmountsOf(std::span<const double> of, std::span<double> amounts) const {
+  rows().forEach(of, [&](const double* row) { addAmounts(row, row[packedNumberAt], amounts); });
+}
+
 std::vector<std::size_t> StochasticPopulation::pathSpecies() const {
   std::vector<std::size_t> all(species().size());
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -18,6 +18,7 @@
 #include "core/modules.hpp"
 #include "core/particle_gas.hpp"
 #include "core/quantity.hpp"
+#include "particles/stochastic/particle_process.hpp"
 #include "particles/stochastic/row_sizes.hpp"
 #include "particles/stochastic/size_bins.hpp"
 
@@ -80,7 +81,7 @@ class StochasticPopulation {
   };
   virtual Exchange takeExchange() = 0;
   // What single processes did from one takeExchange() to the next, per m3; their names are the same for all materials.
-  [[nodiscard]] virtual std::vector<Quantity> processes() const { return {}; }
+  [[nodiscard]] virtual std::vector<ParticleProcess> processes() const { return {}; }
   // The last of these amounts.
   [[nodiscard]] virtual std::vector<double> amountsOfProcesses() const { return {}; }
   // kg/m3 of each element that came and went with numerical particles from unpack() to the last takeExchange(): zero in
@@ -113,6 +114,8 @@ class StochasticPopulation {
 
   // Adds the amounts (AmountsOfParticles) of the particle of a row, times `number`.
   virtual void addAmounts(const double* row, double number, std::span<double> amounts) const = 0;
+  // The same of all particles of these rows (without a head), each times its own number.
+  virtual void addAmountsOf(std::span<const double> of, std::span<double> amounts) const;
 
   // What a run writes of the population. Names begin with the material. Every kind has its volume_fraction,
   // number_density and mean_diameter, of the sphere of mean volume.

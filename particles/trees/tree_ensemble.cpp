@@ -168,25 +168,13 @@ void TreeEnsemble::forEachRow(const std::function<void(const double* row)>& f) c
 
 StochasticPopulation::Exchange TreeEnsemble::takeExchange() {
   taken_ = trees_->takeExchange();
-  for (const TreeEvent& event : events_) total_.*event.number += taken_.*event.number;
+  for (const TreeEvent& event : events_) total_.*event.amount += taken_.*event.amount;
   Exchange exchange{{taken_.gas.begin(), taken_.gas.begin() + static_cast<std::ptrdiff_t>(species().size())},
                     std::vector<double>(elements().size(), 0.0)};
   for (std::size_t k = 0; k < species().size(); ++k)
     for (std::size_t e = 0; e < elements().size(); ++e) exchange.elements[e] -= taken_.gas[k] * perMole_[k][e];
   for (std::size_t e = 0; e < elements().size(); ++e) gained_[e] += exchange.elements[e];
   return exchange;
-}
-
-std::vector<Quantity> TreeEnsemble::processes() const {
-  std::vector<Quantity> all;
-  for (const TreeEvent& event : events_) all.push_back({event.plural, "1/m^3", event.description});
-  return all;
-}
-
-std::vector<double> TreeEnsemble::amountsOfProcesses() const {
-  std::vector<double> all;
-  for (const TreeEvent& event : events_) all.push_back(taken_.*event.number);
-  return all;
 }
 
 std::vector<double> TreeEnsemble::resampled() const {
@@ -266,12 +254,11 @@ std::vector<Quantity> TreeEnsemble::columns() const {
   for (const TreeComponent& c : options_.material.components)
     all.push_back({name + c.name, "1/m^3", "units of " + c.name + " in all particles"});
   for (const TreeEvent& event : events_)
-    all.push_back({name + event.plural, "1/m^3", std::string(event.description) + ", since the beginning"});
+    all.push_back({name + event.name, event.unit, event.description + ", since the beginning"});
   for (const TreeEvent& event : events_) {
     if (event.singular == nullptr) continue;
-    all.push_back({name + event.singular + "_rate", "1/m^3/s", std::string(event.description) + ", by the law"});
-    all.push_back({name + event.singular + "_events", "1",
-                   std::string(event.description) + ", in the sample since the beginning"});
+    all.push_back({name + event.singular + "_rate", event.unit + "/s", event.description + ", by the law"});
+    all.push_back({name + event.singular + "_events", "1", event.description + ", in the sample since the beginning"});
   }
   all.push_back({name + "numerical_particles", "1", "numerical particles of the sample"});
   return all;
@@ -308,7 +295,7 @@ std::vector<double> TreeEnsemble::values(const ParticleGas& gas) const {
                 t.units.begin() + static_cast<std::ptrdiff_t>(options_.material.components.size()));
   const TreeRates rates = trees_->rates(gas, pairsForRate);
   const TreeCounters counters = trees_->counters();
-  for (const TreeEvent& event : events_) values.push_back(total_.*event.number);
+  for (const TreeEvent& event : events_) values.push_back(total_.*event.amount);
   for (const TreeEvent& event : events_)
     if (event.singular != nullptr)
       values.insert(values.end(), {rates.*event.rate, static_cast<double>(counters.*event.count)});
@@ -319,28 +306,21 @@ std::vector<double> TreeEnsemble::values(const ParticleGas& gas) const {
 std::vector<std::pair<std::string, double>> TreeEnsemble::counts() const {
   const TreeCounters c = trees_->counters();
   const auto value = [](std::uint64_t count) { return static_cast<double>(count); };
-  std::vector<std::pair<std::string, double>> all{
-      {"inceptions", value(c.inceptions)},
-      {"coagulations", value(c.coagulations)},
-      {"fictitious_collisions", value(c.fictitious)},
-      {"collision_pairs", value(c.coagulations + c.fictitious)},
-      {"collision_pairs_above_majorant", 0.0},  // the first ends the run (checkBound)
-      {"fused_primaries", value(c.fused)},
-      {"doublings", value(c.doublings)},
-      {"removals", value(c.removals)},
-      {"samples_never_full", trees_->size() > 0 && !trees_->wasFull() ? 1.0 : 0.0},
-      {"split_steps", value(c.splitSteps)}};
-  if (options_.material.sites() != nullptr) {
-    all.emplace_back("surface_reactions", value(c.reactions));
-    all.emplace_back("condensations", value(c.condensations));
-    all.emplace_back("condensations_bounded", value(c.limited));
-    all.emplace_back("sintering_without_sites", value(c.withoutSites));
-  } else {
-    all.emplace_back("burnt_particles", value(c.burnt));
-    all.emplace_back("broken_particles", value(c.broken));
-    if (options_.material.soot()->fragmentation.active) all.emplace_back("fragmentations", value(c.fragmentations));
-  }
-  all.emplace_back("trees_bytes", static_cast<double>(trees_->bytes()));
+  std::vector<std::pair<std::string, double>> all;
+  for (const TreeEvent& event : events_)
+    if (event.count != nullptr) all.emplace_back(event.name, value(c.*event.count));
+  const auto add = [&](std::initializer_list<std::pair<std::string, double>> more) { all.insert(all.end(), more); };
+  if (options_.material.sites() != nullptr)
+    add({{"condensations_bounded", value(c.limited)}, {"sintering_without_sites", value(c.withoutSites)}});
+  add({{"fictitious_collisions", value(c.fictitious)},
+       {"collision_pairs", value(c.coagulations + c.fictitious)},
+       {"collision_pairs_above_majorant", 0.0},  // the first ends the run (checkBound)
+       {"fused_primaries", value(c.fused)},
+       {"doublings", value(c.doublings)},
+       {"removals", value(c.removals)},
+       {"samples_never_full", trees_->size() > 0 && !trees_->wasFull() ? 1.0 : 0.0},
+       {"split_steps", value(c.splitSteps)},
+       {"trees_bytes", static_cast<double>(trees_->bytes())}});
   return all;
 }
 

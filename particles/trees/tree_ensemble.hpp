@@ -40,8 +40,8 @@ class TreeEnsemble final : public StochasticPopulation {
     return options_.material.soot() != nullptr ? std::size_t{SootSpecies::C2H2} : 0;
   }
   Exchange takeExchange() override;
-  [[nodiscard]] std::vector<Quantity> processes() const override;
-  [[nodiscard]] std::vector<double> amountsOfProcesses() const override;
+  [[nodiscard]] std::vector<ParticleProcess> processes() const override { return namesOf(events_); }
+  [[nodiscard]] std::vector<double> amountsOfProcesses() const override { return amountsOf(events_, taken_); }
   [[nodiscard]] std::vector<double> resampled() const override;
   // Of the precursor of a material with sites.
   [[nodiscard]] std::optional<double> rateOf(std::size_t i, const ParticleGas& gas) const override;

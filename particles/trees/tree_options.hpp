@@ -11,6 +11,7 @@
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/population/model/population_model.hpp"
 #include "particles/population/population_solver.hpp"
+#include "particles/stochastic/particle_process.hpp"
 #include "particles/stochastic/particle_rows.hpp"
 #include "particles/trees/tree_shape.hpp"
 
@@ -61,12 +62,9 @@ struct TreeRates {
   double inceptions = 0, coagulations = 0, reactions = 0, condensations = 0, fragmentations = 0;
 };
 
-// One kind of event of a material, as results list it. `plural` and `description` name the number of events per m3.
-// `singular` names the rate; null where a material has no rate of this event. `count`: number in the sample; may be
-// null.
-struct TreeEvent {
-  double TreeExchange::*number;
-  const char *plural, *description;
+// A process of a material: its name is that of its events, which the amount counts. `singular` names the rate; null
+// where a material has no rate of these events. `count`: how many the sample had; may be null.
+struct TreeEvent : ProcessOf<TreeExchange> {
   const char* singular = nullptr;
   double TreeRates::*rate = nullptr;
   std::uint64_t TreeCounters::*count = nullptr;

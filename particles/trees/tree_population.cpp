@@ -222,27 +222,37 @@ std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
   using E = TreeExchange;
   using R = TreeRates;
   using C = TreeCounters;
-  std::vector<TreeEvent> events{
-      {&E::inceptions, "inceptions", "particles born", "inception", &R::inceptions, &C::inceptions},
-      {&E::coagulations, "coagulations", "collisions of particles", "coagulation", &R::coagulations, &C::coagulations}};
-  const auto add = [&](std::initializer_list<TreeEvent> all) { events.insert(events.end(), all); };
-  if (material.soot() == nullptr)
-    add({{&E::reactions, "surface_reactions", "molecules that reacted with a site of a surface", "surface_reaction",
-          &R::reactions, &C::reactions},
-         {&E::condensations, "condensations", "pairs of sites that reacted within a particle", "condensation",
-          &R::condensations, &C::condensations},
-         {&E::sinteredPairs, "sintered_pairs", "pairs of sites that reacted as their surface sintered"}});
-  else
-    add({{&E::dimers, "condensations", "dimers or monomers of PAH that condensed on a particle"},
-         {&E::grown, "growth_reactions", "molecules of C2H2 that a surface took up"},
-         {&E::oxidisedO2, "oxidations_by_o2", "molecules of O2 that oxidised a surface"},
-         {&E::oxidisedOH, "oxidations_by_oh", "molecules of OH that oxidised a surface"},
-         {&E::burntPrimaries, "burnt_primaries", "primaries that burnt away"},
-         {&E::burnt, "burnt_particles", "particles that burnt away"},
-         {&E::broken, "broken_particles", "particles that broke as one of their primaries had burnt away"}});
-  if (material.soot() != nullptr && material.soot()->fragmentation.active)
-    add({{&E::fragmentations, "fragmentations", "necks of particles that oxidation broke", "fragmentation",
-          &R::fragmentations, &C::fragmentations}});
+  std::vector<TreeEvent> events;
+  const auto add = [&](const char* name, const char* description, SpeciesExchanged gas, double E::*amount,
+                       const char* singular = nullptr, double R::*rate = nullptr, std::uint64_t C::*count = nullptr) {
+    events.push_back({{{{name, "1/m^3", description}, std::move(gas)}, amount}, singular, rate, count});
+  };
+  const SootReactions* soot = material.soot();
+  const SpeciesExchanged bridge{{}, {TreeSites::product}}, molecule{{TreeSites::precursor}, {TreeSites::product}};
+  const SpeciesExchanged dimers = soot != nullptr ? exchangedByDimers(soot->soot) : SpeciesExchanged{};
+  add("inceptions", "particles born", soot != nullptr ? dimers : molecule, &E::inceptions, "inception", &R::inceptions,
+      &C::inceptions);
+  add("coagulations", "collisions of particles", {}, &E::coagulations, "coagulation", &R::coagulations,
+      &C::coagulations);
+  if (soot == nullptr) {
+    add("surface_reactions", "molecules that reacted with a site of a surface", molecule, &E::reactions,
+        "surface_reaction", &R::reactions, &C::reactions);
+    add("condensations", "pairs of sites that reacted within a particle", bridge, &E::condensations, "condensation",
+        &R::condensations, &C::condensations);
+    add("sintered_pairs", "pairs of sites that reacted as their surface sintered", bridge, &E::sinteredPairs);
+    return events;
+  }
+  add("condensations", "dimers or monomers of PAH that condensed on a particle", dimers, &E::dimers);
+  add("growth_reactions", "molecules of C2H2 that a surface took up", exchangedByGrowth(), &E::grown);
+  add("oxidations_by_o2", "molecules of O2 that oxidised a surface", exchangedByO2(), &E::oxidisedO2);
+  add("oxidations_by_oh", "molecules of OH that oxidised a surface", exchangedByOH(), &E::oxidisedOH);
+  add("burnt_primaries", "primaries that burnt away", {}, &E::burntPrimaries);
+  add("burnt_particles", "particles that burnt away", {}, &E::burnt, nullptr, nullptr, &C::burnt);
+  add("broken_particles", "particles that broke as one of their primaries had burnt away", {}, &E::broken, nullptr,
+      nullptr, &C::broken);
+  if (soot->fragmentation.active)
+    add("fragmentations", "necks of particles that oxidation broke", {}, &E::fragmentations, "fragmentation",
+        &R::fragmentations, &C::fragmentations);
   return events;
 }
 

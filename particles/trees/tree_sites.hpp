@@ -17,6 +17,8 @@ class TreeSites {
   struct Sums {
     double number = 0, volume = 0, sites = 0, diameters = 0;
   };
+  // The species of the gas.
+  enum : std::size_t { precursor, product };
   // Whether the processes depend on sums over the population, besides the length of a step.
   static constexpr bool dependsOnSums = false;
 
@@ -61,8 +63,6 @@ class TreeSites {
   void recordSintering(double weight, double pairs, TreeExchange& exchange) const;
 
  private:
-  // The species of the gas.
-  enum : std::size_t { precursor, product };
   void recordPairs(double number, TreeExchange& exchange) const;
 
   const PrimaryTrees& type_;

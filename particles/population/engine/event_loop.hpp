@@ -20,6 +20,7 @@ namespace lampblack::particles {
 
 template <class P>
 concept JumpingProcess = requires(P process, RandomStream& random) {
+  { P::name } -> std::convertible_to<const char*>;
   { process.isActive } -> std::convertible_to<bool>;
   { process.bound() } -> std::convertible_to<double>;        // 1/s, of the sample
   { process.attempt(random) } -> std::convertible_to<bool>;  // whether it took place
@@ -53,8 +54,11 @@ void runEvents(double& time, double end, RandomStream& random, B& births, Host& 
     const std::array<double, sizeof...(Processes)> bounds{processes.bound()...};
     double total = 0;
     for (const double bound : bounds) total += bound;
-    if (!(total < never))
-      throw NumericsError(fmt::format("the rates of the events are too large for numbers at t = {:.6g} s", time));
+    if (!(total < never)) {
+      constexpr std::array names{Processes::name...};
+      throw NumericsError(fmt::format("the rate of {} is too large for numbers at t = {:.6g} s",
+                                      names[std::ranges::max_element(bounds) - bounds.begin()], time));
+    }
     const double next = total > 0 ? time + wait / total : never, until = std::min(next, end);
     if (const double due = births.due(time); due < until) {
       wait = std::max(0.0, wait - total * std::max(0.0, due - time));

@@ -9,6 +9,7 @@ namespace lampblack::particles {
 
 template <class Method>
 struct CoagulationJumps {
+  static constexpr const char* name = "coagulation";
   Method& method;
   bool isActive;
   [[nodiscard]] double bound() const { return isActive ? method.coagulationRate() : 0.0; }
@@ -16,6 +17,7 @@ struct CoagulationJumps {
 };
 template <class Method>
 struct BreakageJumps {
+  static constexpr const char* name = "breakage";
   Method& method;
   bool isActive;
   [[nodiscard]] double bound() const { return isActive ? method.breakageRate() : 0.0; }
@@ -23,6 +25,7 @@ struct BreakageJumps {
 };
 template <class Method>
 struct DepositionJumps {
+  static constexpr const char* name = "deposition";
   Method& method;
   bool isActive;
   [[nodiscard]] double bound() const { return isActive ? method.depositionRate() : 0.0; }
@@ -30,6 +33,7 @@ struct DepositionJumps {
 };
 template <class Method>
 struct CondensationJumps {
+  static constexpr const char* name = "condensation";
   Method& method;
   bool isActive;
   [[nodiscard]] double bound() const { return isActive ? method.condensationRate() : 0.0; }

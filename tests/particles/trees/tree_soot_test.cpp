@@ -282,7 +282,7 @@ TEST(TreesOfSoot, BooksEveryAtom) {
         const TreeExchange taken = trees->takeExchange();
         for (std::size_t k = 0; k < taken.gas.size(); ++k) all.gas[k] += taken.gas[k];
         for (std::size_t c = 0; c < 2; ++c) all.units[c] += taken.units[c];
-        for (const TreeEvent& event : treeEvents(options.material)) all.*event.number += taken.*event.number;
+        for (const TreeEvent& event : treeEvents(options.material)) all.*event.amount += taken.*event.amount;
       }
     };
     const auto expectBooked = [&](double whole) {
