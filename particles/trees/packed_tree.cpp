@@ -17,14 +17,21 @@ struct Sums {
   TreeUnits units;
   double volume, diameters, surfaces, levels, surface, collision, sintering, time, rest;
 };
+// Of its four places two in a value, which is exact up to that many primaries.
 struct Neck {
-  double common, left, right, first, last;
+  double common, sides, range;
 };
+constexpr double mostPlaces = 1 << 26;
+double bothPlaces(std::uint32_t first, std::uint32_t second) {
+  return first * mostPlaces + second;
+}
 template <class T>
 constexpr std::size_t valuesOf = sizeof(T) / sizeof(double);
 
-constexpr std::size_t lengthOfRow(std::size_t primaries) {
-  return valuesOf<GivenParticle> + valuesOf<Sums> + primaries * valuesOf<TreeUnits> + (primaries - 1) * valuesOf<Neck>;
+// Of primaries the units of their material.
+std::size_t lengthOfRow(std::size_t primaries, const TreeMaterial& material) {
+  return valuesOf<GivenParticle> + valuesOf<Sums> + primaries * material.components.size() +
+         (primaries - 1) * valuesOf<Neck>;
 }
 
 void setSums(TreeHead& tree, const Sums& h) {
@@ -51,19 +58,20 @@ void packSums(const Tree& tree, double number, const TreeMaterial& material, std
   // So many equal spheres have its volume and its surface: S^3 / (36 pi V^2).
   const double ratio = std::max(1.0, h.surface / treeSphere(h.volume));
   packDoubles(to, GivenParticle{h.volume * material.density, 0, ratio * ratio * ratio, number});
-  packDoubles(to, Sums{static_cast<double>(lengthOfRow(h.count)), static_cast<double>(h.count), h.units, h.volume,
-                       h.diameters, h.surfaces, h.levels, h.surface, h.collision, h.sintering, h.time, h.rest});
+  packDoubles(to,
+              Sums{static_cast<double>(lengthOfRow(h.count, material)), static_cast<double>(h.count), h.units, h.volume,
+                   h.diameters, h.surfaces, h.levels, h.surface, h.collision, h.sintering, h.time, h.rest});
 }
 
 void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
+  if (!(static_cast<double>(tree.count()) < mostPlaces))
+    throw NumericsError("particles: a tree of more than 6.7e7 primaries");
   packSums(tree, number, material, to);
-  const std::size_t before = valuesOf<GivenParticle> + valuesOf<Sums>;
-  double* place = addRow(to, lengthOfRow(tree.count()) - before).data();
-  for (const TreePrimary& primary : tree.primaries()) place = std::ranges::copy(primary.units, place).out;
+  const std::size_t before = valuesOf<GivenParticle> + valuesOf<Sums>, components = material.components.size();
+  double* place = addRow(to, lengthOfRow(tree.count(), material) - before).data();
+  for (const TreePrimary& primary : tree.primaries()) place = std::copy_n(primary.units.begin(), components, place);
   for (const TreeNeck& n : tree.necks())
-    for (const double value : {n.common, static_cast<double>(n.left), static_cast<double>(n.right),
-                               static_cast<double>(n.first), static_cast<double>(n.last)})
-      *place++ = value;
+    for (const double value : {n.common, bothPlaces(n.left, n.right), bothPlaces(n.first, n.last)}) *place++ = value;
 }
 
 Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial& material) {
@@ -73,18 +81,23 @@ Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial
   const auto most = static_cast<double>(rows.size());
   if (!(h.count >= 1) || !(h.count <= most)) throw damaged();
   const auto count = static_cast<std::size_t>(h.count);
-  if (static_cast<double>(lengthOfRow(count)) != h.length || !(h.length <= most)) throw damaged();
+  if (static_cast<double>(lengthOfRow(count, material)) != h.length || !(h.length <= most)) throw damaged();
   const auto index = [](double x) { return static_cast<std::uint32_t>(x); };
+  const auto first = [&](double both) { return index(both / mostPlaces); };
+  const auto second = [&](double both) { return index(both - mostPlaces * first(both)); };
   TreeHead* tree = pool.allocate(count);
   Tree handle(tree);
   tree->count = index(h.count);
   for (std::uint32_t i = 0; i < tree->count; ++i) {
-    const auto units = state.next<TreeUnits>();
+    TreeUnits units{};
+    std::ranges::copy(state.nextRow(material.components.size()), units.begin());
     primariesOf(tree)[i] = {units, treeDiameter(material.volume(units))};
   }
   for (std::uint32_t k = 0; k + 1 < tree->count; ++k) {
     const auto n = state.next<Neck>();
-    TreeNeck neck{n.common, 0, index(n.left), index(n.right), index(n.first), index(n.last)};
+    for (const double both : {n.sides, n.range})
+      if (!(both >= 0) || !(both < mostPlaces * mostPlaces)) throw damaged();
+    TreeNeck neck{n.common, 0, first(n.sides), second(n.sides), first(n.range), second(n.range)};
     if (std::max({neck.left, neck.right, neck.first, neck.last}) >= tree->count) throw damaged();
     neck.sphere = sphereOfNeck(primariesOf(tree), neck);
     necksOf(tree)[k] = neck;

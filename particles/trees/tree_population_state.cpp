@@ -88,7 +88,7 @@ void TreePopulation::restore(const State& state) {
 
 namespace {
 
-constexpr double packedTrees = 4;
+constexpr double packedTrees = 5;
 
 // What counters() does not take from those of the method.
 constexpr std::uint64_t TreeCounters::*packedCounters[] = {

@@ -74,6 +74,32 @@ TEST(ProcessExchange, OfSootIsWhatEachProcessSays) {
   EXPECT_EQ(namesOfWhatHappens(soot, gas.hydroxyl.state, 1e-5), (Names{"oxidation_OH"}));
 }
 
+// More particles than go through at a time, of one to three primaries.
+TEST(SootAmounts, OfManyAreThoseOfEachAndComeAlong) {
+  EnsembleOptions options;
+  options.soot = sootWithHydrogen();
+  options.method = EnsembleMethod::pairs;
+  options.particles = 200;
+  for (const SootShape shape : {SootShape::spheres, SootShape::aggregates}) {
+    options.shape = shape;
+    SootEnsemble soot(mechanismOfSoot(), options), other(mechanismOfSoot(), options);
+    std::vector<GivenParticle> given;
+    for (int k = 0; k < 129; ++k)
+      given.push_back({1e-21 * (1 + k), 1e-23, shape == SootShape::spheres ? 1.0 : 1.0 + k % 3, 1e12 + 1e10 * k});
+    soot.ensemble().initialise(given);
+    const std::vector<double> rows = soot.content();
+    std::vector<double> each(6), all(6);
+    soot.rows().forEach(rows, [&](const double* row) { soot.addAmounts(row, row[packedNumberAt], each); });
+    soot.addAmountsOf(rows, all);
+    EXPECT_EQ(all, each);
+    other.join(rows, 1.0);
+    const Ensemble::Totals before = soot.ensemble().totals(), after = other.ensemble().totals();
+    EXPECT_NEAR(after.diameters / before.diameters, 1, 1e-12);
+    EXPECT_NEAR(after.surface / before.surface, 1, 1e-12);
+    EXPECT_NEAR(all[5] / before.diameters, 1, 1e-12);
+  }
+}
+
 TEST(ProcessExchange, OfTreesOfSootIsWhatEachProcessSays) {
   const GasesOfOneProcess gas;
   SootReactions reactions;
