@@ -5,6 +5,7 @@
 #include <concepts>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -89,6 +90,16 @@ class Operator {
     std::span<double> carried;
   };
   virtual void addSlopes(const State&, const Slopes&) {}
+  // What addRates() adds of what is carried, where it knows of no other cell, in the gas of one state.
+  class CarriedInCells {
+   public:
+    virtual ~CarriedInCells() = default;
+    // Adds to the rates of all that is carried, per m^3 and s, at `amounts` of it in an owned cell, per m^3; and, where
+    // they are asked for, to their derivatives, column-major.
+    virtual void add(int cell, std::span<const double> amounts, std::span<double> rates, std::span<double> slopes) = 0;
+  };
+  // Null where it is not told so. It uses the state and the operator.
+  [[nodiscard]] virtual std::unique_ptr<CarriedInCells> carriedInCells(const State&) { return {}; }
   // Of what addRates() adds in the owned cells, the part by the gradient of a carried scalar itself: as a flow through
   // each face, of each scalar (kg/s, from low to high), that changes cells as convection would by what they differ from
   // where it comes from. For iterations as well. Collective.

@@ -52,6 +52,7 @@ class CarriedOperator : public Operator {
   void addRates(const State& state, State::Balance& rates) override;
   [[nodiscard]] bool actsOnCarried() const override { return true; }
   void addSlopes(const State& state, const Slopes& slopes) override;
+  [[nodiscard]] std::unique_ptr<CarriedInCells> carriedInCells(const State& state) override;
   void setDiffusivities(State& state) override;
   void endStep(State& state) override;
   void saveOrLoad(StateArchive& archive) override;

@@ -91,6 +91,17 @@ void BlockSystem::addInertia(int cell, double inertia) {
   for (std::size_t k = 0; k < fields_; ++k) block(cell)[k * (fields_ + 1)] += inertia;
 }
 
+void BlockSystem::addBrought(int cell, std::span<const double> values, std::span<double> sum) const {
+  for (int i = mesh_.faceStart[cell]; i < mesh_.faceStart[cell + 1]; ++i) {
+    const int face = mesh_.faceOfCell[i];
+    if (mesh_.high[face] < 0) continue;
+    const bool isLow = mesh_.low[face] == cell;
+    const double* comes = &(isLow ? toLow_ : toHigh_)[static_cast<std::size_t>(face) * fields_];
+    const double* value = &values[static_cast<std::size_t>(isLow ? mesh_.high[face] : mesh_.low[face]) * fields_];
+    for (std::size_t k = 0; k < fields_; ++k) sum[k] += comes[k] * value[k];
+  }
+}
+
 // What the other cell of a face, one of this rank's own, brings to a cell, and is brought by it.
 BlockSystem::Neighbour BlockSystem::neighbour(int cell, int face) const {
   if (mesh_.high[face] < 0) return {};

@@ -36,6 +36,8 @@ class BlockSystem {
   void connect(int face, std::size_t field, double conductance, double flow);
   // Adds upwind what a drift takes out of a cell and brings into the other: no difference, but the whole.
   void drift(int face, std::size_t field, double flow);
+  // Adds to `sum` what the neighbours of an owned cell, beyond the rank's too, bring with these values, fields a cell.
+  void addBrought(int cell, std::span<const double> values, std::span<double> sum) const;
   // Adds one number to the diagonal of a cell, of each field.
   void addInertia(int cell, double inertia);
   // Collective. What solve() needs of the system as it is. NumericsError where a block is singular.

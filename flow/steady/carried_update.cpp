@@ -17,6 +17,8 @@ constexpr double leastLeft = 0.1, mostLeft = 10.0, mostBeside = 1e-4;
 // was by so much of the share; but so many times at most.
 constexpr double leastGain = 0.1;
 constexpr int mostHalvings = 6;
+// What a face may have, over the value upwind.
+constexpr double mostOverUpwind = 3.0;
 // Amounts, of the largest anywhere, below which what is left of an equation does not count more.
 constexpr double leastCounted = 1e-8;
 
@@ -24,8 +26,13 @@ constexpr double leastCounted = 1e-8;
 
 CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, const FlowResidual& residual,
                              const std::vector<Operator*>& operators)
-    : context_(context), n_(state.scalars.size()), system_(context.mesh, context.halo, n_), scales_(n_) {
+    : context_(context),
+      n_(state.scalars.size()),
+      system_(context.mesh, context.halo, n_),
+      sweeps_(context, n_),
+      scales_(n_) {
   std::ranges::copy_if(operators, std::back_inserter(operators_), &Operator::actsOnCarried);
+  isByCell_ = std::ranges::all_of(operators_, [&](Operator* op) { return op->carriedInCells(state) != nullptr; });
   slopes_.resize(static_cast<std::size_t>(context.mesh.owned) * n_ * n_);
   right_.resize(static_cast<std::size_t>(context.mesh.owned) * n_);
   change_.resize(static_cast<std::size_t>(context.mesh.cells) * n_);
@@ -56,7 +63,7 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
   std::ranges::fill(slopes_, 0.0);
   std::ranges::fill(flow_, 0.0);
   for (Operator* op : operators_) {
-    op->addSlopes(state, {{}, slopes_});
+    if (!isByCell_) op->addSlopes(state, {{}, slopes_});
     op->addCarriedFlow(flow_);
   }
   const FlowResidual::Rates& rates = residual.rates();
@@ -80,12 +87,30 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
     for (std::size_t s = 0; s < n_; ++s) {
       if (!state.scalars[s].isTransported) continue;
       const std::size_t at = static_cast<std::size_t>(face) * n_ + s;
+      if (isByCell_) {
+        system_.connect(face, s, conductance_[at], 0.0);
+        system_.drift(face, s, flowOf(state, residual, face, s));
+        continue;
+      }
       system_.connect(face, s, conductance_[at], state.massFlux[face]);
       if (flow_[at] != 0.0) system_.connect(face, s, 0.0, flow_[at]);
       const double drift = state.scalars[s].thermophoresis * residual.carried().driftFlux()[face];
       if (m.high[face] >= 0 && drift != 0.0) system_.drift(face, s, drift);
     }
-  dropFastGrowth(state);
+  if (!isByCell_) dropFastGrowth(state);
+}
+
+// kg/s, upwind: what goes through a face, by a limited scheme, over what there is where it comes from. Where amounts
+// fall by decades from cell to cell that is far from what flows there.
+double CarriedUpdate::flowOf(const State& state, const FlowResidual& residual, int face, std::size_t s) const {
+  const Mesh& m = context_.mesh;
+  if (m.high[face] < 0) return std::max(state.massFlux[face], 0.0);
+  const double flow = state.massFlux[face] + state.scalars[s].thermophoresis * residual.carried().driftFlux()[face];
+  const auto from = static_cast<std::size_t>(flow > 0.0 ? m.low[face] : m.high[face]);
+  const double perMass = state.carried[from * n_ + s] / state.density[from];
+  const double passes = residual.carried().flux()[static_cast<std::size_t>(face) * n_ + s];
+  if (!(perMass > 0.0) || !(passes * flow > 0.0)) return flow;
+  return flow * std::min(passes / (flow * perMass), mostOverUpwind);
 }
 
 // What grows by itself faster than the pseudo-time and transport let it would be led the wrong way by its derivative,
@@ -182,15 +207,28 @@ void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
   }
 }
 
+int CarriedUpdate::sweep(State& state, const FlowResidual& residual, std::span<const double> inertia) {
+  std::vector<double> rates(right_.size());
+  for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = residual.rates().made.netOfCarried(i, state.carried);
+  std::vector<std::unique_ptr<Operator::CarriedInCells>> sources;
+  for (Operator* op : operators_) sources.push_back(op->carriedInCells(state));
+  return sweeps_.advance(state, {system_, inertia, right_, scales_, rates, sources});
+}
+
 int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
   findScales(state);
   assemble(state, residual, inertia);
-  system_.factorise();
-  const BlockSystem::Result result = system_.solve(right_, change_, carriedReduction, mostCarriedIterations);
-  takeShares(state, residual);
+  int iterations = 0;
+  if (isByCell_) {
+    iterations = sweep(state, residual, inertia);
+  } else {
+    system_.factorise();
+    iterations = system_.solve(right_, change_, carriedReduction, mostCarriedIterations).iterations;
+    takeShares(state, residual);
+  }
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
-  return result.iterations;
+  return iterations;
 }
 
 }  // namespace lampblack::flow

@@ -13,6 +13,7 @@
 #include "flow/operator.hpp"
 #include "flow/state.hpp"
 #include "flow/steady/block_system.hpp"
+#include "flow/steady/carried_sweeps.hpp"
 
 namespace lampblack::flow {
 
@@ -22,14 +23,19 @@ class CarriedUpdate {
   CarriedUpdate(const FlowContext& context, const State& state, const FlowResidual& residual,
                 const std::vector<Operator*>& operators);
 
+  // Whether cells are solved one behind the other (CarriedSweeps), and not all by one linear system.
+  [[nodiscard]] bool isByCell() const { return isByCell_; }
+
   // Collective. The residual is of the state, what is carried at least; `inertia` (kg/s, owned cells): mass over the
   // cell's pseudo-time. The halo is filled then, and what the operators tell transport of their scalars is that of the
-  // new state. The iterations of the linear solver.
+  // new state. The iterations of the linear solver, or the sweeps.
   int advance(State& state, const FlowResidual& residual, std::span<const double> inertia);
 
  private:
   void findScales(const State& state);
+  int sweep(State& state, const FlowResidual& residual, std::span<const double> inertia);
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
+  [[nodiscard]] double flowOf(const State& state, const FlowResidual& residual, int face, std::size_t scalar) const;
   void dropFastGrowth(const State& state);
   void takeShares(State& state, const FlowResidual& residual);
   void take(State& state, int cell) const;
@@ -39,7 +45,9 @@ class CarriedUpdate {
   const FlowContext& context_;
   std::vector<Operator*> operators_;
   std::size_t n_;
+  bool isByCell_;
   BlockSystem system_;
+  CarriedSweeps sweeps_;
   // Largest amount per kg of gas of each scalar, at least what counts as nothing: the unit of the linear system.
   // Sections that nothing has reached yet would else have to keep to traces.
   std::vector<double> scales_;

@@ -20,11 +20,12 @@ constexpr double toleratedFirst = 100.0, tolerated = 4.0;
 constexpr double forgets = 2.0;  // growth with which the earlier iterations are of no use
 // Velocities and pressure, which cost little beside a gas of many species, are changed so many times in an iteration.
 constexpr int flowPasses = 3;
-// So is what is carried, which in a gas that rests moves on by a cell each time.
+// So is what is carried where all cells are one linear system, and moves on by a cell each time: whole steps of sources
+// that bend would lead elsewhere. Cell by cell it may pass as many as there are, and changes again only while more of
+// its equations is left than a share of all that was left before the iteration.
 constexpr int carriedPasses = 3;
-// Of what is carried, at most: where particles burn in a few cells their number and mass have to go together, and do
-// not where an iteration has them pass more than a cell.
-constexpr double mostCarriedCourant = 1.0;
+constexpr double carriedShare = 0.3;
+constexpr double mostCarriedCourant = 1.0, mostSweptCourant = 1e3;
 constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
 // Of Newton's linear systems; of their pseudo-time, which goes on growing; of what there was, what a step may leave:
 // after more iterations of the other kind follow, each time twice as many.
@@ -193,10 +194,12 @@ void SteadyIteration::hurry() {
 }
 
 void SteadyIteration::advanceCarried(State& state) {
-  const double slower = flowCourant() / std::min(courant_, mostCarriedCourant);
+  const double most = carried_->isByCell() ? mostSweptCourant : mostCarriedCourant;
+  const double slower = flowCourant() / std::min(courant_, most);
   for (std::size_t c = 0; c < inertia_.size(); ++c) carriedInertia_[c] = slower * flowInertia_[c];
   for (int pass = 0; pass < carriedPasses; ++pass) {
     residual_.evaluateCarried(state);
+    if (pass > 0 && carried_->isByCell() && ofCarried(state, through(state)) < carriedShare * measure_) break;
     carried_->advance(state, residual_, carriedInertia_);
   }
 }

@@ -88,6 +88,7 @@ class SteadyIteration {
   void advanceCarried(State& state);
   // Of the state that was evaluated: what is left of all equations over what goes through the cells.
   [[nodiscard]] double measure(const State& state) const;
+  [[nodiscard]] double through(const State& state) const;  // kg/s, the sum of all faces
   [[nodiscard]] double ofCarried(const State& state, double through) const;
 
   const FlowContext& context_;

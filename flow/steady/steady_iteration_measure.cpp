@@ -8,6 +8,14 @@
 
 namespace lampblack::flow {
 
+double SteadyIteration::through(const State& state) const {
+  double sum = 0.0;
+  for (int face = 0; face < context_.mesh.faces; ++face)
+    if (context_.mesh.low[face] < context_.mesh.owned) sum += std::abs(state.massFlux[face]);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  return std::max(sum, 1e-300);
+}
+
 double SteadyIteration::ofCarried(const State& state, double through) const {
   const FlowResidual::Rates& rates = residual_.rates();
   const std::size_t n = state.scalars.size();
@@ -33,14 +41,11 @@ double SteadyIteration::measure(const State& state) const {
   const Mesh& m = context_.mesh;
   const FlowResidual::Rates& rates = residual_.rates();
   const auto n = static_cast<std::size_t>(state.species), d = static_cast<std::size_t>(state.dimension);
-  enum { Mass, Fluxes, Momentum, Heat, Species, Through, Equations };
+  enum { Mass, Fluxes, Momentum, Heat, Species, Equations };
   std::array<double, Equations> sums{};
   std::array<double, 3> ends{0.0, -1e300, -1e300};
-  for (int face = 0; face < m.faces; ++face) {
-    if (m.low[face] >= m.owned) continue;
-    sums[Fluxes] += std::abs(rates.massFlux[face]);
-    sums[Through] += std::abs(state.massFlux[face]);
-  }
+  for (int face = 0; face < m.faces; ++face)
+    if (m.low[face] < m.owned) sums[Fluxes] += std::abs(rates.massFlux[face]);
   std::vector<double> enthalpies(n);
   for (int cell = 0; cell < m.owned; ++cell) {
     const auto c = static_cast<std::size_t>(cell);
@@ -63,7 +68,7 @@ double SteadyIteration::measure(const State& state) const {
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), Equations, MPI_DOUBLE, MPI_SUM, m.comm);
   MPI_Allreduce(MPI_IN_PLACE, ends.data(), 3, MPI_DOUBLE, MPI_MAX, m.comm);
-  const double through = std::max(sums[Through], 1e-300);
+  const double through = this->through(state);
   return ofCarried(state, through) + (sums[Mass] + sums[Fluxes] + sums[Momentum] / std::max(ends[0], 1e-300) +
                                       sums[Heat] / std::max(ends[1] + ends[2], 1e-3 * ends[1]) + sums[Species]) /
                                          through;

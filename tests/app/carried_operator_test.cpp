@@ -221,6 +221,17 @@ TEST_P(EveryModel, TellsHowItsRatesDependOnWhatIsCarried) {
   particles.addSlopes(flame.state, {gasAlone, {}});
   particles.addSlopes(flame.state, {ofGas, beside});
   EXPECT_EQ(alone, beside);
+  // In one cell by itself as in all.
+  State::Balance made = flame.state.balance;
+  made.clear();
+  particles.addRates(flame.state, made);
+  std::vector<double> rates(owned * n), slopes(owned * n * n);
+  const std::unique_ptr<Operator::CarriedInCells> inCells = particles.carriedInCells(flame.state);
+  for (std::size_t c = 0; c < owned; ++c)
+    inCells->add(static_cast<int>(c), std::span(flame.state.carried).subspan(c * n, n),
+                 std::span(rates).subspan(c * n, n), std::span(slopes).subspan(c * n * n, n * n));
+  EXPECT_EQ(rates, std::vector<double>(made.carried.begin(), made.carried.begin() + static_cast<long>(owned * n)));
+  EXPECT_EQ(slopes, alone);
   EXPECT_EQ(gasAlone, ofGas);
   const auto share = [n](std::size_t i) { return 1e-4 * std::cos(static_cast<double>(i % n)); };
   const auto ratesAt = [&](double sign) {
