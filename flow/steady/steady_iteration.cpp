@@ -298,17 +298,27 @@ void SteadyIteration::takeBack(State& state, double measure) {
 }
 
 SteadyIteration::Outcome SteadyIteration::iterate(State& state, bool mayAccelerate) {
+  return last_ = tryOne(state, mayAccelerate);
+}
+
+SteadyIteration::Outcome SteadyIteration::tryOne(State& state, bool mayAccelerate) {
   before_ = state;
   if (control_) loadBefore_ = control_->load();
   const double last = measure_;
+  int newtonIterations = 0;
+  bool isTakenBack = false;
   if (newton_ && mayAccelerate && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
     const Outcome outcome = attemptTogether(state);
     if (outcome.taken) return outcome;
+    newtonIterations = outcome.newtonIterations;
+    isTakenBack = true;
     takeBack(state, last);
     waitForNewton();
   }
   courant_ = std::min(courant_, options_.mostCourant);
   Outcome outcome = attempt(state, mayAccelerate);
+  outcome.newtonIterations = newtonIterations;
+  outcome.newtonTakenBack = isTakenBack;
   isLimited_ = !outcome.taken || outcome.limited > 0;
   if (outcome.taken) return outcome;
   takeBack(state, last);

@@ -53,7 +53,10 @@ class SteadyIteration {
     double measure = 0.0;  // of what is left of all equations, of the state as it is now
     std::string why;       // it was not taken
     int gasIterations = 0, flowIterations = 0, pressureIterations = 0;  // of the linear solvers
-    int newtonIterations = 0;  // of that of gas and flow together; zero in an iteration that is none of Newton's
+    // Of that of gas and flow together; zero where no step of Newton's method was tried, and whether one that was has
+    // been taken back: the iteration is then one of the other kind.
+    int newtonIterations = 0;
+    bool newtonTakenBack = false;
     double largestRise = 0.0;  // K, that the linear system asked for
     std::int64_t limited = 0;  // cells where less than that was taken
   };
@@ -62,6 +65,8 @@ class SteadyIteration {
   // equilibrium, an iteration finds by itself, and a combination of several disturbs.
   Outcome iterate(State& state, bool mayAccelerate = true);
 
+  // Of the last iteration; nothing before the first.
+  [[nodiscard]] const Outcome& last() const { return last_; }
   // Of the state as it is now.
   [[nodiscard]] const FlowResidual& residual() const { return residual_; }
 
@@ -71,6 +76,7 @@ class SteadyIteration {
   void saveOrLoad(const State& state, StateArchive& archive);
 
  private:
+  Outcome tryOne(State& state, bool mayAccelerate);
   Outcome attempt(State& state, bool mayAccelerate);
   // The same by Newton's method.
   Outcome attemptTogether(State& state);
@@ -108,6 +114,7 @@ class SteadyIteration {
   static constexpr int leastPause = 5;
   int waits_ = 0, pause_ = leastPause;  // iterations before Newton's method is tried again; of the next time
   double measure_ = 0.0;
+  Outcome last_;
   std::vector<double> inertia_, carriedInertia_, flowInertia_;  // kg/s, owned cells
   std::vector<double> haste_;                                   // owned cells: of the pseudo-time that others have
   std::optional<State> before_;

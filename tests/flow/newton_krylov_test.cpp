@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
+#include "core/state_backup.hpp"
 #include "flow/models/reaction_operator.hpp"
 #include "flow/steady/steady_iteration.hpp"
 #include "flow/stepping/transport_operator.hpp"
@@ -88,6 +90,71 @@ TEST(NewtonSteps, LeaveTheSquare) {
   report(fmt::format("off by {:.3g} and {:.3g} K", whole, half));
   EXPECT_GT(whole / half, 3.0);
   EXPECT_LT(whole, 0.02);
+}
+
+// Heat that comes and goes each time that one asks: differences of the residual tell nothing.
+class Restless : public Operator {
+ public:
+  explicit Restless(const Mesh& mesh) : mesh_(mesh) {}
+  [[nodiscard]] const char* name() const override { return "restless"; }
+  void advance(State&, double, double) override {}
+  void addRates(const State&, State::Balance& rates) override {
+    sign_ = -sign_;
+    for (int c = 0; c < mesh_.owned; ++c) rates.enthalpy[at(c)] += sign_ * 5.0;  // W/m3
+  }
+
+ private:
+  const Mesh& mesh_;
+  double sign_ = 1.0;
+};
+
+TEST(NewtonSteps, AreToldWhereTheyAreTakenBack) {
+  WarmChannel channel;
+  Restless restless(channel.box->mesh);
+  const std::vector<Operator*> operators{&*channel.transport, &restless};
+  SteadyIteration iteration(channel.box->context, *channel.state, {}, operators);
+  int takenBack = 0, count = 0;
+  for (; count < 80 && takenBack == 0; ++count) {
+    const SteadyIteration::Outcome outcome = iteration.iterate(*channel.state);
+    takenBack += outcome.newtonTakenBack;
+    EXPECT_EQ(iteration.last().newtonTakenBack, outcome.newtonTakenBack);
+    EXPECT_GE(outcome.newtonIterations, outcome.newtonTakenBack ? 1 : 0);
+  }
+  report(fmt::format("taken back in iteration {}", count));
+  EXPECT_EQ(takenBack, 1);
+}
+
+TEST(NewtonSteps, GoOnFromWhatWasSavedWithTheSameBits) {
+  WarmChannel channel, other;
+  const auto begin = [](WarmChannel& c) {
+    return std::make_unique<SteadyIteration>(c.box->context, *c.state, SteadyIteration::Options{},
+                                             std::vector<Operator*>{&*c.transport});
+  };
+  const std::unique_ptr<SteadyIteration> one = begin(channel), two = begin(other);
+  for (int newtons = 0, count = 0; newtons < 2 && count < 100; ++count)
+    newtons += one->iterate(*channel.state).newtonIterations > 0;
+  const auto partsOf = [](WarmChannel& c, SteadyIteration& iteration) {
+    return [&](StateArchive& archive) {
+      c.state->saveOrLoad(archive);
+      if (archive.loading()) c.state->updateHalo(c.box->halo);
+      iteration.saveOrLoad(*c.state, archive);
+    };
+  };
+  StateBackup kept(channel.box->mesh.owned, channel.box->mesh.faces);
+  kept.save(partsOf(channel, *one));
+  kept.restore(partsOf(other, *two));
+  int newtons = 0;
+  for (int i = 0; i < 2; ++i) {
+    const SteadyIteration::Outcome a = one->iterate(*channel.state), b = two->iterate(*other.state);
+    EXPECT_EQ(a.measure, b.measure);
+    EXPECT_EQ(a.courant, b.courant);
+    EXPECT_EQ(a.newtonIterations, b.newtonIterations);
+    newtons += a.newtonIterations > 0;
+  }
+  EXPECT_GE(newtons, 1);
+  EXPECT_EQ(channel.state->temperature, other.state->temperature);
+  EXPECT_EQ(channel.state->massFlux, other.state->massFlux);
+  EXPECT_EQ(channel.state->pressure, other.state->pressure);
 }
 
 }  // namespace

@@ -215,6 +215,8 @@ void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
 
 std::vector<Quantity> FlowLoop::searchColumns() const {
   std::vector<Quantity> columns{{"iteration", "1", "iterations so far; of a row that is one, time stands still"}};
+  columns.push_back({"newton_vectors", "1", "Krylov vectors of a step of Newton's method in this iteration"});
+  columns.push_back({"newton_taken_back", "1", "whether that step was taken back, and another iteration made"});
   const auto add = [&](const std::string& equation, const std::string& what) {
     columns.push_back({columnName(equation), "1", "what is left of " + what + ", of what goes through"});
   };
@@ -231,6 +233,9 @@ std::vector<Quantity> FlowLoop::searchColumns() const {
 
 std::vector<double> FlowLoop::searchValues() const {
   std::vector<double> values{static_cast<double>(search_->iterations())};
+  const SteadyIteration::Outcome last = iteration_ ? iteration_->last() : SteadyIteration::Outcome{};
+  values.push_back(last.newtonIterations);
+  values.push_back(last.newtonTakenBack ? 1.0 : 0.0);
   if (normsOf_ == steps_)
     for (const ResidualNorm& norm : worstOfEachKind(norms_)) values.push_back(norm.value);
   values.resize(searchColumns().size(), std::numeric_limits<double>::quiet_NaN());
