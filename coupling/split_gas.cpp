@@ -7,8 +7,8 @@ using Kept = SplitReactor::Gas::Kept;
 SplitReactor::Gas splitGas(ClosedReactor& reactor, ReactorSystem::Held held) {
   SplitReactor::Gas gas;
   gas.system = &reactor;
-  gas.density = [&reactor](double, const double* y) { return reactor.density(y); };
-  gas.pressure = [&reactor](double, const double* y) { return reactor.pressure(y); };
+  gas.density = [&reactor](double t, const double* y) { return reactor.density(t, y); };
+  gas.pressure = [&reactor](double t, const double* y) { return reactor.pressure(t, y); };
   if (held == ReactorSystem::Held::Density) gas.kept = {Kept::internalEnergy};
   return gas;
 }

@@ -21,7 +21,7 @@ struct NamedDimension {
   std::string_view unit;     // SI
 };
 
-constexpr std::array<NamedDimension, 33> namedDimensions{{
+constexpr std::array<NamedDimension, 34> namedDimensions{{
     {dimensionless, "a plain number", "0.5", ""},
     {length, "a length", "8 mm", "m"},
     {time, "a time", "10 us", "s"},
@@ -32,6 +32,7 @@ constexpr std::array<NamedDimension, 33> namedDimensions{{
     {area, "an area", "2 cm^2", "m^2"},
     {volume, "a volume", "5 cm^3", "m^3"},
     {frequency, "a rate", "50 1/s", "1/s"},
+    {angularVelocity, "a speed of revolution", "1000 rpm", "rad/s"},
     {velocity, "a velocity", "20 cm/s", "m/s"},
     {acceleration, "an acceleration", "9.81 m/s^2", "m/s^2"},
     {density, "a density", "1800 kg/m^3", "kg/m^3"},
@@ -73,7 +74,7 @@ struct Symbol {
 constexpr double degree = std::numbers::pi / 180.0;
 
 // Defining constants: BIPM, The International System of Units, 9th edition (2019); atm and Torr: CGPM 1954.
-constexpr std::array<Symbol, 31> symbols{{
+constexpr std::array<Symbol, 32> symbols{{
     {"m", {1.0, 0.0, length}, true},
     {"g", {1e-3, 0.0, mass}, true},
     {"s", {1.0, 0.0, time}, true},
@@ -100,6 +101,7 @@ constexpr std::array<Symbol, 31> symbols{{
     {"l", {1e-3, 0.0, volume}, true},
     {"P", {0.1, 0.0, viscosity}, true},
     {"t", {1e3, 0.0, mass}},
+    {"rpm", {degree * 6.0, 0.0, angularVelocity}},
     {"%", {1e-2, 0.0, dimensionless}},
     {"ppm", {1e-6, 0.0, dimensionless}},
     {"ppb", {1e-9, 0.0, dimensionless}},

@@ -45,6 +45,7 @@ inline constexpr Dimension angle{.angle = 1};
 inline constexpr Dimension area = power(length, 2);
 inline constexpr Dimension volume = power(length, 3);
 inline constexpr Dimension frequency = power(time, -1);
+inline constexpr Dimension angularVelocity = angle / time;
 inline constexpr Dimension velocity = length / time;
 inline constexpr Dimension acceleration = velocity / time;
 inline constexpr Dimension density = mass / volume;

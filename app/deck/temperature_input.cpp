@@ -2,127 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <filesystem>
-#include <limits>
 #include <optional>
-#include <sstream>
 #include <utility>
 
+#include "app/deck/two_columns.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
-#include "core/text_file.hpp"
-#include "io/table_column.hpp"
 
 namespace lampblack::app {
-namespace {
-
-std::string trimmed(const std::string& line) {
-  return line.substr(0, line.find('\r'));
-}
-
-// The fields of a line, without the blanks and quotes around them: between commas, or between blanks where there are
-// none.
-std::vector<std::string> fieldsOf(std::string line) {
-  const bool commas = line.find(',') != std::string::npos;
-  std::vector<std::string> fields(1);
-  bool quoted = false;
-  for (const char c : line) {
-    const bool blank = c == ' ' || c == '\t' || c == '\r';
-    if (c == '"')
-      quoted = !quoted;
-    else if (!quoted && (commas ? c == ',' : blank))
-      fields.emplace_back();
-    else if (quoted || !blank)
-      fields.back() += c;
-  }
-  if (!commas) std::erase(fields, "");
-  return fields;
-}
-
-// NaN and infinities are numbers that nobody wants here, not names.
-std::optional<double> numberIn(const std::string& field) {
-  const std::string_view digits = field.starts_with('+') ? std::string_view(field).substr(1) : std::string_view(field);
-  double value = 0;
-  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (digits.empty() || status == std::errc::invalid_argument || end != digits.data() + digits.size())
-    return std::nullopt;
-  return status == std::errc{} ? value : std::numeric_limits<double>::infinity();
-}
-
-// Of a header: units behind a blank belong to the name before them where blanks separate the columns.
-std::vector<std::string> joinedWithUnits(std::vector<std::string> names) {
-  for (std::size_t i = 1; i < names.size();) {
-    if (!names[i].starts_with('[') && !names[i].starts_with('(')) {
-      ++i;
-      continue;
-    }
-    names[i - 1] += ' ' + names[i];
-    names.erase(names.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-  return names;
-}
-
-// Two columns of numbers, separated by a comma or blanks. The first line may be a header: one without any number, with
-// units behind the names or without.
-TemperatureProfile readProfileFile(const std::filesystem::path& path, const units::Dimension& pointDimension) {
-  std::istringstream file(readTextFile(path, "a profile of two columns"));
-  std::vector<double> points, temperatures;
-  bool first = true;
-  std::size_t number = 0;
-  TableColumn pointColumn("", "", pointDimension), temperatureColumn("", "", units::temperature);
-  for (std::string line; std::getline(file, line);) {
-    ++number;
-    const std::vector<std::string> fields = fieldsOf(line);
-    if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); }) ||
-        fields[0].starts_with('#'))
-      continue;
-    const auto refuse = [&](const std::string& why) {
-      throw InputError(fmt::format("{}:{}: {}", path.string(), number, why));
-    };
-    const bool header =
-        std::exchange(first, false) &&
-        std::none_of(fields.begin(), fields.end(), [](const auto& field) { return numberIn(field).has_value(); });
-    if (header) {
-      const std::vector<std::string> names = joinedWithUnits(fields);
-      if (names.size() != 2) {
-        if (line.find_first_of("[(") != std::string::npos)
-          refuse(fmt::format("expected the names of two columns, 'z [cm],T [K]', found '{}'", trimmed(line)));
-        continue;
-      }
-      try {
-        const auto [pointName, pointUnit] = nameAndUnit(names[0]);
-        const auto [temperatureName, temperatureUnit] = nameAndUnit(names[1]);
-        pointColumn = TableColumn(pointName, pointUnit, pointDimension);
-        temperatureColumn = TableColumn(temperatureName, temperatureUnit, units::temperature);
-      } catch (const InputError& error) {
-        refuse(error.what());
-      }
-      continue;
-    }
-    auto point = numberIn(fields[0]), temperature = fields.size() == 2 ? numberIn(fields[1]) : std::nullopt;
-    if (!point || !temperature || !std::isfinite(*point) || !std::isfinite(*temperature))
-      refuse(fmt::format("expected two numbers, found '{}'", trimmed(line)));
-    point = pointColumn.inSI(*point);
-    temperature = temperatureColumn.inSI(*temperature);
-    if (!points.empty() && !(*point > points.back()))
-      refuse(fmt::format("the points have to rise; {} follows {}", *point, points.back()));
-    try {
-      static_cast<void>(TemperatureProfile(*temperature));
-    } catch (const InputError& error) {
-      refuse(error.what());
-    }
-    points.push_back(*point);
-    temperatures.push_back(*temperature);
-  }
-  if (points.empty()) throw InputError(fmt::format("{}: expected lines of two numbers, found none", path.string()));
-  return {std::move(points), std::move(temperatures)};
-}
-
-}  // namespace
 
 DeckKey temperatureKey(std::string path, std::string doc) {
   return quantityKey(std::move(path), units::temperature, std::move(doc))
@@ -186,7 +74,12 @@ TemperatureProfile readPoints(const Deck& deck, const std::string& points) {
   if (listed == deck.has(section + ".file"))
     throw deck.error(section, fmt::format("expected either '{}' and 'temperature' or 'file'", points));
   try {
-    if (!listed) return readProfileFile(deck.resolvePath(deck.string(section + ".file")), dimension);
+    if (!listed) {
+      TwoColumns columns =
+          readTwoColumns(deck.resolvePath(deck.string(section + ".file")), dimension, units::temperature,
+                         "z [cm],T [K]", [](double T) { static_cast<void>(TemperatureProfile(T)); });
+      return {std::move(columns.points), std::move(columns.values)};
+    }
     for (const std::string& name : {points, std::string("temperature")})
       if (!deck.has(section + "." + name))
         throw InputError(fmt::format("'{}' and 'temperature' belong together: give both or neither", points));

@@ -25,23 +25,25 @@ std::vector<StoichiometricTerm> netStoichiometry(const Reaction& reaction) {
 }  // namespace
 
 ClosedReactor::ClosedReactor(const Mechanism& mechanism, const GasState& initial, ReactorSystem::Held held,
-                             std::optional<TemperatureProfile> profile, CarriedPhase* carried)
+                             std::optional<TemperatureProfile> profile, CarriedPhase* carried,
+                             std::optional<VolumeLaw> volume)
     : mechanism_(mechanism),
       initial_(initial),
       profile_(std::move(profile)),
+      volume_(std::move(volume)),
       thermo_(mechanism),
       system_(mechanism, carried),
       kinetics_(mechanism),
       y_(system_.size()),
+      rates_(system_.size()),
       concentrations_(mechanism.numSpecies()),
       progress_(mechanism.numReactions()),
       reverse_(mechanism.numReactions()),
       energy_(mechanism.numSpecies()) {
   if (profile_) initial_.temperature = profile_->value(0.0);
+  startDensity_ = thermo_.density(initial_.temperature, initial_.pressure, initial_.Y);
   conditions_.held = held;
-  conditions_.value = held == ReactorSystem::Held::Pressure
-                          ? initial_.pressure
-                          : thermo_.density(initial_.temperature, initial_.pressure, initial_.Y);
+  conditions_.value = held == ReactorSystem::Held::Pressure ? initial_.pressure : startDensity_;
   if (profile_) conditions_.energy = ReactorSystem::Energy::GivenTemperature;
   system_.setConditions(conditions_);
 }
@@ -58,45 +60,51 @@ std::vector<double> unknownsOf(const GasState& state, std::size_t carried) {
   return y;
 }
 
-double ClosedReactor::density(const double* y) const {
-  if (conditions_.held == ReactorSystem::Held::Density) return conditions_.value;
+double ClosedReactor::density(double t, const double* y) const {
+  if (conditions_.held == ReactorSystem::Held::Density) return heldDensity(t);
   const std::size_t n = mechanism_.numSpecies();
   return thermo_.density(y[n], conditions_.value, {y, n});
 }
 
-double ClosedReactor::pressure(const double* y) const {
+double ClosedReactor::pressure(double t, const double* y) const {
   if (conditions_.held == ReactorSystem::Held::Pressure) return conditions_.value;
   double moles = 0;
   const auto W = mechanism_.molecularWeights();
   for (std::size_t k = 0; k < W.size(); ++k) moles += y[k] / W[k];
-  return conditions_.value * moles * constants::gasConstant * y[W.size()];
+  return heldDensity(t) * moles * constants::gasConstant * y[W.size()];
 }
 
-double ClosedReactor::heatRelease(const double* y) {
+double ClosedReactor::heatRelease(double t, const double* y) {
   const std::size_t n = mechanism_.numSpecies();
-  if (!system_.chemicalRates(y, y_.data())) return std::nan("");
+  y = at(t, y);
+  if (!system_.chemicalRates(y, rates_.data())) return std::nan("");
   thermo_.speciesEnthalpies(y[n], energy_);
   double heat = 0;
-  for (std::size_t k = 0; k < n; ++k) heat -= energy_[k] * y_[k];
+  for (std::size_t k = 0; k < n; ++k) heat -= energy_[k] * rates_[k];
   return heat * system_.density();
 }
 
 // With a profile the temperature in y is carried along only; the rates take the given one.
-const double* ClosedReactor::withGivenTemperature(double t, const double* y) {
+const double* ClosedReactor::at(double t, const double* y) {
+  if (!profile_ && !volume_) return y;
+  if (volume_) {
+    conditions_.value = heldDensity(t);
+    conditions_.expansion = volume_->expansion(t);
+  }
+  if (profile_) conditions_.temperatureRate = profile_->slope(t);
+  system_.setConditions(conditions_);
   if (!profile_) return y;
   std::copy_n(y, y_.size(), y_.begin());
   y_[mechanism_.numSpecies()] = profile_->value(t);
-  conditions_.temperatureRate = profile_->slope(t);
-  system_.setConditions(conditions_);
   return y_.data();
 }
 
 bool ClosedReactor::rates(double t, const double* y, double* f) {
-  return system_.rates(withGivenTemperature(t, y), f);
+  return system_.rates(at(t, y), f);
 }
 
 bool ClosedReactor::jacobian(double t, const double* y, double* f, double* J, std::size_t ld) {
-  if (!system_.jacobian(withGivenTemperature(t, y), f, J, ld)) return false;
+  if (!system_.jacobian(at(t, y), f, J, ld)) return false;
   if (profile_) std::fill_n(J + mechanism_.numSpecies() * ld, size(), 0.0);
   return true;
 }
@@ -111,7 +119,7 @@ double ClosedReactor::toleranceScale(std::size_t i) const {
 
 std::string ClosedReactor::describe(double t, const double* y) const {
   const std::size_t n = mechanism_.numSpecies();
-  return fmt::format("t = {:.6g} s, T = {:.6g} K, p = {:.6g} Pa, mass fractions {{{}}}", t, y[n], pressure(y),
+  return fmt::format("t = {:.6g} s, T = {:.6g} K, p = {:.6g} Pa, mass fractions {{{}}}", t, y[n], pressure(t, y),
                      compositionText(mechanism_, {y, n}));
 }
 
@@ -121,11 +129,11 @@ void ClosedReactor::setParameters(std::vector<std::size_t> reactions) {
 }
 
 bool ClosedReactor::prepareParameters(double t, const double* y) {
-  y = withGivenTemperature(t, y);
+  y = at(t, y);
   const std::size_t n = mechanism_.numSpecies();
   const double T = y[n];
   const auto W = mechanism_.molecularWeights();
-  density_ = density(y);
+  density_ = density(t, y);
   for (std::size_t k = 0; k < n; ++k) concentrations_[k] = y[k] * density_ / W[k];
   kinetics_.ratesOfProgress(T, concentrations_, progress_, reverse_);
   for (std::size_t r = 0; r < progress_.size(); ++r) progress_[r] -= reverse_[r];

@@ -15,16 +15,30 @@ namespace {
 
 // A largest fraction of fewer absolute tolerances is noise.
 constexpr double kNoise = 1e4;
-constexpr double kStageRise = 1;  // K, of a first stage
+constexpr double kStageRise = 1;    // K, of a first stage
+constexpr double kTimeStep = 1e-6;  // of a time, for derivatives by it
 
 }  // namespace
 
-IgnitionQuantity::IgnitionQuantity(const Mechanism& mechanism, OdeSystem& system)
-    : mechanism_(mechanism), system_(system), f_(system.size()), J_(system.size() * system.size()) {}
+IgnitionQuantity::IgnitionQuantity(const Mechanism& mechanism, OdeSystem& system, const VolumeLaw* volume)
+    : mechanism_(mechanism),
+      system_(system),
+      volume_(volume),
+      f_(system.size()),
+      J_(system.size() * system.size()),
+      byTime_(system.dependsOnTime() ? system.size() : 0),
+      other_(byTime_.size()) {}
 
 void IgnitionQuantity::prepare(double t, const double* y, bool withJacobian) {
-  const bool good =
-      withJacobian ? system_.jacobian(t, y, f_.data(), J_.data(), system_.size()) : system_.rates(t, y, f_.data());
+  time_ = t;
+  bool good = true;
+  if (withJacobian && !byTime_.empty()) {
+    const double h = kTimeStep * std::max(t, kTimeStep);
+    good = system_.rates(t + h, y, byTime_.data()) && system_.rates(t - h, y, other_.data());
+    for (std::size_t i = 0; i < byTime_.size(); ++i) byTime_[i] = (byTime_[i] - other_[i]) / (2 * h);
+  }
+  good = good &&
+         (withJacobian ? system_.jacobian(t, y, f_.data(), J_.data(), system_.size()) : system_.rates(t, y, f_.data()));
   if (!good) throw NumericsError(fmt::format("this is not a state of a gas: {}", system_.describe(t, y)));
 }
 
@@ -45,7 +59,7 @@ double IgnitionQuantity::moleFractionChange(std::size_t k, const MoleFraction& a
 }
 
 double IgnitionQuantity::second(std::size_t row) const {
-  double sum = 0;
+  double sum = byTime_.empty() ? 0 : byTime_[row];
   for (std::size_t j = 0; j < f_.size(); ++j) sum += J_[row + j * f_.size()] * f_[j];
   return sum;
 }
@@ -60,8 +74,14 @@ IgnitionQuantity::Value IgnitionQuantity::of(const IgnitionCriterion& criterion,
       const double M = moles(y), rate = moles(f_.data());
       double M2 = 0;
       for (std::size_t i = 0; i < n; ++i) M2 += second(i) / mechanism_.molecularWeights()[i];
-      return {criterion.scale * (f_[n] * M + y[n] * rate),
-              criterion.scale * (second(n) * M + 2 * f_[n] * rate + y[n] * M2)};
+      const double g = y[n] * M, slope = f_[n] * M + y[n] * rate;
+      const double curvature = second(n) * M + 2 * f_[n] * rate + y[n] * M2;
+      if (volume_ == nullptr) return {criterion.scale * slope, criterion.scale * curvature};
+      // p/scale = g/v, v' = e v
+      const double h = kTimeStep * std::max(time_, kTimeStep), scale = criterion.scale / volume_->ratio(time_);
+      const double e = volume_->expansion(time_);
+      const double eSlope = (volume_->expansion(time_ + h) - volume_->expansion(time_ - h)) / (2 * h);
+      return {scale * (slope - g * e), scale * (curvature - 2 * slope * e + g * (e * e - eSlope))};
     }
     case Kind::MoleFraction:
       return {moleFraction(k, y).X, moleFractionChange(k, moleFraction(k, y), f_.data())};
@@ -96,8 +116,9 @@ double IgnitionQuantity::change(const IgnitionCriterion& criterion, const double
   return 0;
 }
 
-IgnitionMonitor::IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, std::vector<IgnitionCriterion> criteria)
-    : quantity_(mechanism, system),
+IgnitionMonitor::IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, std::vector<IgnitionCriterion> criteria,
+                                 const VolumeLaw* volume)
+    : quantity_(mechanism, system, volume),
       criteria_(std::move(criteria)),
       events_(criteria_.size()),
       first_(criteria_.size()),

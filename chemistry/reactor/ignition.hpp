@@ -11,6 +11,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/ode_system.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
+#include "chemistry/reactor/volume_law.hpp"
 #include "core/modules.hpp"
 
 namespace lampblack::chemistry {
@@ -18,7 +19,7 @@ namespace lampblack::chemistry {
 struct IgnitionCriterion {
   enum class Kind {
     TemperatureRate,  // largest dT/dt
-    PressureRate,     // largest dp/dt, at constant volume
+    PressureRate,     // largest dp/dt, at constant volume or one that is given
     MoleFraction,     // largest mole fraction of a species
     MassFraction,     // largest mass fraction of a species
     TemperatureRise,  // T first is `rise` above the initial temperature
@@ -27,7 +28,7 @@ struct IgnitionCriterion {
   std::size_t species = 0;
   double rise = 0;   // K
   std::string name;  // for results
-  // Of dp/dt: density times the gas constant (SI), so that p = scale T sum(Y/W).
+  // Of dp/dt: density at time zero times the gas constant (SI), so that p = scale T sum(Y/W) V(0)/V.
   double scale = 1;
   // Of a rate: its first maximum after some heat has been set free, where a higher one follows.
   bool firstStage = false;
@@ -46,7 +47,8 @@ struct IgnitionEvent {
 // The quantity a criterion is about - dT/dt, dp/dt, a fraction, or T - and its rate of change, at a state of a system.
 class IgnitionQuantity {
  public:
-  IgnitionQuantity(const Mechanism& mechanism, OdeSystem& system);
+  // With a law for the volume, which has to live as long, dp/dt is that of the volume of the moment.
+  IgnitionQuantity(const Mechanism& mechanism, OdeSystem& system, const VolumeLaw* volume = nullptr);
 
   struct Value {
     double value = 0, slope = 0;
@@ -70,18 +72,21 @@ class IgnitionQuantity {
 
   const Mechanism& mechanism_;
   OdeSystem& system_;
-  // (J f)_row: the second derivative of an unknown, as the rates of an adiabatic reactor do not depend on time
-  // themselves.
+  // (J f + df/dt)_row: the second derivative of an unknown.
   double second(std::size_t row) const;
 
+  const VolumeLaw* volume_ = nullptr;
+  double time_ = 0;
   std::vector<double> f_, J_;
+  std::vector<double> byTime_, other_;  // df/dt at a held state; empty where there is none
 };
 
 // Watches an integration step by step. Of several maxima the highest inside the time counts; a quantity that is largest
 // at the beginning or the end has none, and a fraction that stays below 1e4 absolute tolerances is noise.
 class IgnitionMonitor {
  public:
-  IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, std::vector<IgnitionCriterion> criteria);
+  IgnitionMonitor(const Mechanism& mechanism, OdeSystem& system, std::vector<IgnitionCriterion> criteria,
+                  const VolumeLaw* volume = nullptr);
 
   void begin(double time, const double* y);
   void observe(const StiffIntegrator& integrator);  // after each step

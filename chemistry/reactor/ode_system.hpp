@@ -18,6 +18,8 @@ class OdeSystem {
   virtual bool rates(double t, const double* y, double* f) = 0;
   // J[i + ld*j] = d f_i / d y_j for all i, j < size(); also leaves f.
   virtual bool jacobian(double t, const double* y, double* f, double* J, std::size_t ld) = 0;
+  // Whether the rates of a state are other ones at another time.
+  virtual bool dependsOnTime() const { return false; }
   // Puts into y what is a given function of time and only carried along, such as a given temperature.
   virtual void prescribe(double /*t*/, double* /*y*/) const {}
   // What the absolute tolerance is multiplied with for unknown i: one for mass fractions, and for what is only carried

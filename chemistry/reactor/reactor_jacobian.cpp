@@ -58,8 +58,9 @@ double ReactorSystem::temperatureDiagonal(const double* y, const double* f, cons
     closed += dot(carriedCapacity_.data(), f + n + 1, count) +
               conditions_.removal * dot(carriedCapacity_.data(), y + n + 1, count) +
               dot(carriedEnergy_.data(), temperatureColumn + n + 1, count);
+  const double work = conditions_.expansion * pressure_ / density_ / y[n];  // e p/rho by T
   return -inverseCapacity_ *
-         (closed + dot(energy_.data(), temperatureColumn, n) + dot(capacitySlope_.data(), y, n) * f[n]);
+         (closed + work + dot(energy_.data(), temperatureColumn, n) + dot(capacitySlope_.data(), y, n) * f[n]);
 }
 
 bool ReactorSystem::jacobian(const double* y, double* f, double* J, std::size_t ld) {
@@ -94,7 +95,8 @@ bool ReactorSystem::jacobian(const double* y, double* f, double* J, std::size_t 
     const double gas = dot(energy_.data(), column, n);
     return count == 0 ? gas : gas + dot(carriedEnergy_.data(), column + n + 1, count);
   };
-  for (std::size_t j = 0; j < n; ++j) J[n + j * ld] = -inverseCapacity_ * (heating(J + j * ld) + capacity_[j] * f[n]);
+  for (std::size_t j = 0; j < n; ++j)
+    J[n + j * ld] = -inverseCapacity_ * (heating(J + j * ld) + capacity_[j] * f[n] + workByFraction(j, y[n]));
   last[n] = temperatureDiagonal(y, f, last);
   for (std::size_t s = 0; s < count; ++s) {
     double* column = J + (n + 1 + s) * ld;
@@ -149,7 +151,7 @@ bool ReactorSystem::sparseJacobian(const double* y, double* f, SparseJacobian& J
   for (std::size_t k = 0; k < n; ++k) J.product[k] = weights_[k] * (common_[k] + excess_[k]);
   J.product[n] = -inverseCapacity_ * dot(energy_.data(), J.product.data(), n);
   for (std::size_t j = 0; j < n; ++j)
-    J.temperatureRow[j] = -inverseCapacity_ * (J.temperatureRow[j] + capacity_[j] * f[n]);
+    J.temperatureRow[j] = -inverseCapacity_ * (J.temperatureRow[j] + capacity_[j] * f[n] + workByFraction(j, y[n]));
   J.temperatureColumn[n] = temperatureDiagonal(y, f, J.temperatureColumn.data());
   return accept(f);
 }

@@ -130,7 +130,7 @@ bool ReactorSystem::chemicalRates(const double* y, double* f) {
 double ReactorSystem::temperatureSlope(const double* y, const double* f) {
   if (conditions_.energy == Energy::GivenTemperature) return conditions_.temperatureRate;
   const std::size_t n = weights_.size();
-  double supply = conditions_.heating;
+  double supply = conditions_.heating - conditions_.expansion * pressure_ / density_;
   if (conditions_.removal != 0) supply -= conditions_.removal * dot(energy_.data(), y, n);
   if (carried_ != nullptr) {
     const std::size_t count = numCarried();

@@ -3,7 +3,9 @@
 //   dY_k/dt = f W_k wdot_k / rho + S_k - r Y_k - l_k Y_k
 //   constant pressure:  cp dT/dt = q - r h - sum_k h_k dY_k/dt      (dh/dt = q - r h)
 //   constant density:   cv dT/dt = q - r u - sum_k u_k dY_k/dt      (du/dt = q - r u)
-// with a constant source S_k, a removal rate r and a heating q, all zero in a closed adiabatic reactor, and a factor f
+// Where the volume V is a given function of time, the density of a moment takes the place of the constant one, and
+// the gas works on what moves: du/dt = q - r u - e p/rho, e = V'/V.
+// A constant source S_k, a removal rate r and a heating q are all zero in a closed adiabatic reactor; a factor f is
 // on the reactions, one where nothing holds them up. Where the temperature is given, dT/dt is a given number instead,
 // and species may be lost at rates l_k of their own.
 //
@@ -46,6 +48,7 @@ class ReactorSystem {
     double carriedRemoval = 0;  // the same of all that is carried, beside r
     double removal = 0;         // r, 1/s
     double heating = 0;         // q, J/kg/s
+    double expansion = 0;       // e, 1/s, of a volume that changes: beside constant density alone
     bool reacts = true;         // false: without wdot
     double rateFactor = 1;      // f
   };
@@ -112,6 +115,8 @@ class ReactorSystem {
   bool finishRates(const double* y, double* f);
   void speciesBlock(double* J, std::size_t ld) const;
   void sparseColumns(SparseJacobian& J) const;
+  // d(e p/rho)/dY_j, J/kg/s
+  double workByFraction(std::size_t j, double T) const { return conditions_.expansion * gasConstants_[j] * T; }
   double temperatureDiagonal(const double* y, const double* f, const double* temperatureColumn);
 
   Thermo thermo_;

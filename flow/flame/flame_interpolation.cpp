@@ -4,41 +4,10 @@
 
 #include "core/errors.hpp"
 #include "flow/flame/flame_grid.hpp"
+#include "numerics/monotone_cubic.hpp"
 
 namespace lampblack::flow {
 namespace {
-
-// Slope at the end of three points whose neighbouring slopes are a (at the end) and b, of intervals ha and hb: that of
-// the parabola through them.
-double endSlope(double ha, double hb, double a, double b) {
-  return ((2 * ha + hb) * a - ha * b) / (ha + hb);
-}
-
-// Slopes at the points of the piecewise cubic that rises and falls with its data (Fritsch and Carlson, SIAM J. Numer.
-// Anal. 17 (1980) 238-246): parabolas' slopes, made smaller where they leave the circle of radius 3 (their eq. 4.1 ff).
-void monotoneSlopes(std::span<const double> z, std::span<const double> v, std::span<double> d) {
-  const std::size_t n = z.size();
-  const auto h = [&](std::size_t i) { return z[i + 1] - z[i]; };
-  const auto secant = [&](std::size_t i) { return (v[i + 1] - v[i]) / h(i); };
-  if (n == 2) {
-    d[0] = d[1] = secant(0);
-    return;
-  }
-  d[0] = endSlope(h(0), h(1), secant(0), secant(1));
-  d[n - 1] = endSlope(h(n - 2), h(n - 3), secant(n - 2), secant(n - 3));
-  for (std::size_t i = 1; i + 1 < n; ++i) d[i] = (h(i) * secant(i - 1) + h(i - 1) * secant(i)) / (h(i - 1) + h(i));
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double s = secant(i);
-    // Against the secant (or flat): none. At a maximum or minimum this makes the slope zero from one side or the other.
-    if (d[i] * s <= 0) d[i] = 0;
-    if (d[i + 1] * s <= 0) d[i + 1] = 0;
-    if (s == 0) continue;
-    const double radius = std::hypot(d[i] / s, d[i + 1] / s);
-    if (radius <= 3) continue;
-    d[i] *= 3 / radius;
-    d[i + 1] *= 3 / radius;
-  }
-}
 
 // Interval of rising z in which a point lies, by its lower end; the last or first one beyond.
 std::size_t intervalOf(std::span<const double> z, double at) {
@@ -103,7 +72,7 @@ FlameProfile onGrid(const FlameProfile& profile, std::span<const double> z) {
   std::vector<double> values(n), d(n);
   for (std::size_t c = FlameLayout::spread; c < width; ++c) {
     for (std::size_t i = 0; i < n; ++i) values[i] = profile.at(i, c);
-    monotoneSlopes(profile.z, values, d);
+    numerics::monotoneSlopes(profile.z, values, d);
     for (std::size_t i = 0; i < n; ++i) slopes[i * width + c] = d[i];
   }
   for (std::size_t p = 0; p < z.size(); ++p) {

@@ -118,7 +118,7 @@ TEST(Ignition, DelayDoesNotDependOnTheSteps) {
 TEST(Ignition, ThePressureRisesFastestWhereItIsSaid) {
   const GasState state = mixture(hydrogen(), "H2: 2, O2: 1, N2: 3.76", 1200);
   ClosedReactor reactor(hydrogen(), state, Held::Density);
-  const double scale = reactor.density(reactor.initialState().data()) * constants::gasConstant;
+  const double scale = reactor.density(0, reactor.initialState().data()) * constants::gasConstant;
   const auto run = ignite(hydrogen(), state, 2e-4, Held::Density, kDefault,
                           {{.kind = Kind::PressureRate, .name = "max_dpdt", .scale = scale}});
   ASSERT_TRUE(run.events[0]);
@@ -129,7 +129,7 @@ TEST(Ignition, ThePressureRisesFastestWhereItIsSaid) {
   for (int i = -2; i <= 2; ++i) {
     while (integrator.time() < tau + i * spacing) integrator.step();
     integrator.interpolate(tau + i * spacing, y);
-    pressure.push_back(reactor.pressure(y.data()));
+    pressure.push_back(reactor.pressure(0, y.data()));
   }
   const double before = (pressure[1] - pressure[0]) / spacing, after = (pressure[4] - pressure[3]) / spacing;
   const double middle = (pressure[3] - pressure[1]) / (2 * spacing);

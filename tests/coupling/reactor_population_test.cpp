@@ -69,7 +69,7 @@ TEST(ReactorTrees, KeepsSiliconOxygenAndHydrogenToRoundOff) {
                                              trees.elements().begin());
     EXPECT_GT(y[n + 1 + at], 0.5 * elements(start)[silicon]);
     ASSERT_EQ(trees.trees().counters().removals, 0U);
-    const double booked = reactor.density(y.data()) * y[n + 1 + at] / mechanism.atomicWeight(silicon);
+    const double booked = reactor.density(0, y.data()) * y[n + 1 + at] / mechanism.atomicWeight(silicon);
     EXPECT_NEAR(trees.trees().totals().units[0] / (booked * constants::avogadro), 1, 1e-6);
   }
 }
@@ -138,7 +138,7 @@ TEST(ReactorTrees, SmallSamplesHaveWhatTheGasLost) {
     both.advance(0.025);
     const auto y = both.state();
     double exchanged = 0;
-    for (std::size_t e = 0; e < trees.elements().size(); ++e) exchanged += reactor.density(y.data()) * y[n + 1 + e];
+    for (std::size_t e = 0; e < trees.elements().size(); ++e) exchanged += reactor.density(0, y.data()) * y[n + 1 + e];
     ratios.push_back(trees.trees().totals().mass / exchanged);
     removals += static_cast<double>(trees.removals());
   }

@@ -229,7 +229,7 @@ TEST_P(EnsembleInAReactor, AgreesWithSections) {
   ClosedReactor whole(ethylene(), gas, Held::Pressure, std::nullopt, &particles);
   const auto y = integrated(whole, whole.initialState(), end, 1e-8);
   std::vector<double> densities(particles.size());
-  const double density = whole.density(y.data());
+  const double density = whole.density(0, y.data());
   particles.densities(density, std::span<const double>(y).subspan(n + 1), densities);
   const ParticleProperties exact =
       sections.model().properties(particles.gas().atComposition(y[n], gas.pressure, {y.data(), n}), densities);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "app/deck/gas_input.hpp"
 #include "app/deck/particles_deck.hpp"
@@ -66,6 +67,7 @@ void readClosed(const Deck& deck, ReactorCase& reactorCase) {
   reactorCase.profile = readEnergy(deck, reactorCase.initial.temperature, "time", mechanism);
   reactorCase.end = neededQuantity(deck, "time", "end", "a closed reactor");
   checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
+  if (reactorCase.type == ReactorType::GivenVolume) reactorcase::readVolume(deck, reactorCase);
   reactorcase::readIgnition(deck, reactorCase);
   reactorcase::readSensitivity(deck, reactorCase);
 }
@@ -148,8 +150,11 @@ ReactorCase readReactorCase(const Deck& deck) {
   reactorCase.output = {deck.optionalQuantity("output.interval"),
                         readSpeciesList(deck, "output.species", *reactorCase.mechanism),
                         deck.choice("output.fractions") == "mass"};
-  if (type == "constant_pressure" || type == "constant_volume") {
-    reactorCase.type = type == "constant_pressure" ? ReactorType::ConstantPressure : ReactorType::ConstantVolume;
+  static const std::map<std::string, ReactorType> closed{{"constant_pressure", ReactorType::ConstantPressure},
+                                                         {"constant_volume", ReactorType::ConstantVolume},
+                                                         {"given_volume", ReactorType::GivenVolume}};
+  if (const auto found = closed.find(type); found != closed.end()) {
+    reactorCase.type = found->second;
     readClosed(deck, reactorCase);
   } else if (type == "plug_flow") {
     reactorCase.type = ReactorType::PlugFlow;

@@ -23,7 +23,7 @@
 namespace lampblack::app {
 
 // Kinds of reactors. GivenGas: the history of the gas is prescribed (problem: prescribed_gas).
-enum class ReactorType { ConstantPressure, ConstantVolume, Stirred, PlugFlow, Network, GivenGas };
+enum class ReactorType { ConstantPressure, ConstantVolume, GivenVolume, Stirred, PlugFlow, Network, GivenGas };
 
 struct ReactorOutput {
   std::optional<double> interval;    // s (plug flow: m) between rows; every step otherwise
@@ -52,7 +52,10 @@ struct ReactorCase {
 
   // Closed reactors.
   GasState initial;
-  double end = 0.0;  // s; stirred: of a transient, 0 where the steady state is wanted
+  std::optional<VolumeLaw> volume;
+  std::optional<double> startAngle, angularSpeed;  // rad after top dead centre, rad/s, of a piston
+  double ignitionFrom = 0;                         // s, what delays count from
+  double end = 0.0;                                // s; stirred: of a transient, 0 where the steady state is wanted
   std::vector<IgnitionCriterion> ignition;
   std::vector<std::size_t> sensitivities;  // reactions
 

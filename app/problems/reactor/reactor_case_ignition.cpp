@@ -52,7 +52,7 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
     criteria.push_back({Kind::TemperatureRate, 0, 0.0, "max_dTdt"});
   if (adiabatic && deck.boolean("ignition.first_stage"))
     criteria.push_back({.kind = Kind::TemperatureRate, .name = "first_stage", .firstStage = true});
-  if (adiabatic && reactorCase.type == ReactorType::ConstantVolume && deck.boolean("ignition.pressure_rate")) {
+  if (adiabatic && reactorCase.type != ReactorType::ConstantPressure && deck.boolean("ignition.pressure_rate")) {
     const GasState& start = reactorCase.initial;
     const double density = Thermo(mechanism).density(start.temperature, start.pressure, start.Y);
     criteria.push_back({.kind = Kind::PressureRate, .name = "max_dpdt", .scale = density * constants::gasConstant});
@@ -71,7 +71,7 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
     criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
   }
   if (const auto rise = deck.optionalQuantity("ignition.temperature_rise")) {
-    requireIgnition(deck, "ignition.temperature_rise", reactorCase);
+    if (!reactorCase.volume) requireIgnition(deck, "ignition.temperature_rise", reactorCase);
     criteria.push_back({Kind::TemperatureRise, 0, *rise, fmt::format("rise_{:g}K", *rise)});
   }
 }

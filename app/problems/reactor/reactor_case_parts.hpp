@@ -10,6 +10,10 @@ namespace lampblack::app::reactorcase {
 void readIgnition(const Deck& deck, ReactorCase& reactorCase);
 void readSensitivity(const Deck& deck, ReactorCase& reactorCase);
 
+// The section volume of a closed reactor, and the volume it gives; the start and the end are known.
+void addVolumeKeys(DeckSchema& schema);
+void readVolume(const Deck& deck, ReactorCase& reactorCase);
+
 // A stirred reactor (the sections reactor and inlet) and a network (the section network).
 void readStirred(const Deck& deck, ReactorCase& reactorCase);
 void readNetwork(const Deck& deck, ReactorCase& reactorCase);

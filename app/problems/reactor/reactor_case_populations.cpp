@@ -14,6 +14,11 @@ namespace {
 // What a population of any kind cannot have.
 void refuseWithPopulation(const Deck& deck, ReactorCase& reactorCase) {
   if (reactorCase.type == ReactorType::GivenGas) return;
+  if (reactorCase.type == ReactorType::GivenVolume)
+    throw deck.error("reactor.type",
+                     "ensembles and trees are not there in a given volume; expected constant_pressure or "
+                     "constant_volume, moments or sections of particles, or problem: prescribed_gas along the "
+                     "history of this run");
   if (deck.has("sensitivity") || (deck.isGiven("ignition") && !reactorCase.ignition.empty()))
     throw deck.error(deck.has("sensitivity") ? "sensitivity" : "ignition",
                      "ignition delays of a gas with an ensemble are not computed; leave this section out");

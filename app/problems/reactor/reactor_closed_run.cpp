@@ -34,26 +34,36 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     ClosedReactor reactor(
         *case_.mechanism, case_.initial,
         case_.type == ReactorType::ConstantPressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density,
-        case_.profile, case_.particles.get());
+        case_.profile, case_.particles.get(), case_.volume);
     StiffIntegrator integrator(reactor, case_.integrator);
-    IgnitionMonitor monitor(*case_.mechanism, reactor, case_.ignition);
+    IgnitionMonitor monitor(*case_.mechanism, reactor, case_.ignition, case_.volume ? &*case_.volume : nullptr);
     const std::vector<double> start = reactor.initialState();
     startTemperature_ = start[case_.mechanism->numSpecies()];
     integrator.start(0.0, start, case_.end);
-    monitor.begin(0.0, start.data());
+    if (case_.ignitionFrom == 0) monitor.begin(0.0, start.data());
     history_.open(folder.history());
     history_.follow(
-        integrator, case_.output.interval, case_.end, case_.profile,
+        integrator, case_.output.interval, case_.end, [&](double time) { return nextStop(time); },
         [&](double time, std::span<const double> y) {
           std::vector<double> row = closedRow(case_, reactor, time, y);
-          particles_.append(reactor.pressure(y.data()), reactor.density(y.data()), y, row);
+          particles_.append(reactor.pressure(time, y.data()), reactor.density(time, y.data()), y, row);
           return row;
         },
-        [&] { monitor.observe(integrator); });
+        [&] {
+          if (integrator.time() == case_.ignitionFrom) {
+            const std::span<const double> y = integrator.state();
+            compressed_ = {y[case_.mechanism->numSpecies()], reactor.pressure(integrator.time(), y.data())};
+            monitor.begin(integrator.time(), y.data());
+          } else if (integrator.time() > case_.ignitionFrom) {
+            monitor.observe(integrator);
+          }
+        });
     events_ = monitor.events();
+    for (auto& event : events_)
+      if (event) event->time -= case_.ignitionFrom;
     statistics_ = integrator.statistics();
     endTemperature_ = integrator.state()[case_.mechanism->numSpecies()];
-    endPressure_ = reactor.pressure(integrator.state().data());
+    endPressure_ = reactor.pressure(integrator.time(), integrator.state().data());
     reached_ = integrator.time();
     seconds_ = MPI_Wtime() - begin;
     particles_.requireSizeRangeCovered();
@@ -93,6 +103,10 @@ class ClosedReactorDriver : public ReactorOfOneRank {
         json.null();
     }
     json.endObject();
+    if (compressed_)
+      json.field("end_of_compression_s", case_.ignitionFrom)
+          .field("compressed_temperature_K", compressed_->temperature)
+          .field("compressed_pressure_Pa", compressed_->pressure);
     json.field("final_temperature_K", endTemperature_).field("final_pressure_Pa", endPressure_);
     particles_.record(json);
     json.field("rate_evaluations", static_cast<std::int64_t>(statistics_.rateEvaluations));
@@ -100,6 +114,9 @@ class ClosedReactorDriver : public ReactorOfOneRank {
   }
 
   void print() const override {
+    if (compressed_)
+      fmt::print("compressed at {:.6e} s to {:.2f} K and {:.6g} Pa; delays count from there\n", case_.ignitionFrom,
+                 compressed_->temperature, compressed_->pressure);
     for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
       const std::string what = describe(case_.ignition[i], *case_.mechanism);
       if (events_[i])
@@ -136,11 +153,27 @@ class ClosedReactorDriver : public ReactorOfOneRank {
 
   static ReactorParticleOutput::Kept kept(const ReactorCase& reactorCase) {
     using Kept = ReactorParticleOutput::Kept;
-    if (reactorCase.profile) return Kept::elements;
+    if (reactorCase.profile || reactorCase.volume) return Kept::elements;
     return reactorCase.type == ReactorType::ConstantPressure ? Kept::enthalpy : Kept::internalEnergy;
   }
 
+  // Kinks of what is given in time, and the end of a compression.
+  double nextStop(double time) const {
+    double next = case_.end;
+    if (case_.profile) next = std::min(next, case_.profile->nextKink(time).value_or(next));
+    if (case_.ignitionFrom > time) next = std::min(next, case_.ignitionFrom);
+    if (case_.volume)
+      for (const double kink : case_.volume->kinks())
+        if (kink > time) next = std::min(next, kink);
+    return next;
+  }
+
+  struct Compressed {
+    double temperature = 0, pressure = 0;  // K, Pa
+  };
+
   const ReactorCase& case_;
+  std::optional<Compressed> compressed_;  // where delays count from the end of a compression
   ReactorParticleOutput particles_;
   ReactorHistory history_;
   std::vector<std::optional<IgnitionEvent>> events_;

@@ -12,7 +12,7 @@ void ReactorHistory::open(const std::filesystem::path& path) {
 }
 
 void ReactorHistory::follow(StiffIntegrator& integrator, const std::optional<double>& interval, double end,
-                            const std::optional<TemperatureProfile>& profile, const MakeRow& makeRow,
+                            const std::function<double(double at)>& nextStop, const MakeRow& makeRow,
                             const std::function<void()>& afterStep) {
   std::vector<double> y(integrator.state().begin(), integrator.state().end());
   double last = integrator.time();
@@ -25,7 +25,7 @@ void ReactorHistory::follow(StiffIntegrator& integrator, const std::optional<dou
   row(last, y);
   Progress progress(MPI_COMM_SELF, last, end, Progress::logInterval);
   while (integrator.time() < end && stopRequest() == 0) {
-    if (profile) integrator.stopAt(profile->nextKink(integrator.time()).value_or(end));
+    if (nextStop) integrator.stopAt(nextStop(integrator.time()));
     integrator.step();
     afterStep();
     if (progress.due())

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "chemistry/reactor/stiff_integrator.hpp"
-#include "chemistry/reactor/temperature_profile.hpp"
 #include "core/modules.hpp"
 #include "io/history.hpp"
 
@@ -29,10 +28,12 @@ class ReactorHistory {
   void open(const std::filesystem::path& path);
   void row(std::span<const double> values) { writer_->row(values); }
   // Integrates from the integrator's start to `end` and writes rows: the start, each step (or each `interval`, by
-  // interpolation), and the end. The kinks of a profile are stops. `afterStep` is called after each step.
+  // interpolation), and the end. `nextStop`: the next kink of the rates after a point, at most `end`; steps end there;
+  // empty: none.
+  // `afterStep` is called after each step.
   // Ends early where the run is asked to stop; long ones say now and then how far they are.
   void follow(StiffIntegrator& integrator, const std::optional<double>& interval, double end,
-              const std::optional<TemperatureProfile>& profile, const MakeRow& makeRow,
+              const std::function<double(double at)>& nextStop, const MakeRow& makeRow,
               const std::function<void()>& afterStep);
   // Collective.
   void writeTo(ResultsWriter& results) const;

@@ -40,7 +40,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
     history_.open(folder.history());
     const std::size_t n = case_.mechanism->numSpecies();
     history_.follow(
-        integrator, case_.output.interval, case_.end, std::nullopt,
+        integrator, case_.output.interval, case_.end, {},
         [&](double time, std::span<const double> y) {
           std::vector<double> row{time, y[n], system.density(y.data()), system.residenceTime(y.data(), 0),
                                   system.heatRelease(y.data(), 0)};

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <limits>
+#include <numbers>
 
 #include "io/csv.hpp"
 
@@ -35,6 +36,8 @@ std::vector<Quantity> closedColumns(const ReactorCase& reactorCase) {
                                 {"density", "kg/m^3", "density"},
                                 {"temperature_rate", "K/s", "dT/dt"},
                                 {"heat_release", "W/m^3", "heat set free by the reactions"}};
+  if (reactorCase.volume) columns.push_back({"volume_ratio", "1", "volume over that at time zero"});
+  if (reactorCase.startAngle) columns.push_back({"crank_angle", "deg", "angle of the crank after top dead centre"});
   for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
   return columns;
 }
@@ -44,8 +47,15 @@ std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& rea
   std::vector<double> f(y.size());
   reactor.rates(time, y.data(), f.data());
   const std::size_t n = reactorCase.mechanism->numSpecies();
-  std::vector<double> row{
-      time, y[n], reactor.pressure(y.data()), reactor.density(y.data()), f[n], reactor.heatRelease(y.data())};
+  std::vector<double> row{time,
+                          y[n],
+                          reactor.pressure(time, y.data()),
+                          reactor.density(time, y.data()),
+                          f[n],
+                          reactor.heatRelease(time, y.data())};
+  if (reactorCase.volume) row.push_back(reactorCase.volume->ratio(time));
+  if (reactorCase.startAngle)
+    row.push_back((*reactorCase.startAngle + *reactorCase.angularSpeed * time) * 180 / std::numbers::pi);
   appendSpecies(*reactorCase.mechanism, reactorCase.output, y.first(n), row);
   return row;
 }

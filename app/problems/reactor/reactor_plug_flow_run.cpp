@@ -41,8 +41,10 @@ class PlugFlowDriver : public ReactorOfOneRank {
     integrator.start(0.0, flow.initialState(), case_.length);
     history_.open(folder.history());
     const std::size_t n = case_.mechanism->numSpecies();
+    std::function<double(double)> nextStop;
+    if (case_.profile) nextStop = [&](double z) { return case_.profile->nextKink(z).value_or(case_.length); };
     history_.follow(
-        integrator, case_.output.interval, case_.length, case_.profile,
+        integrator, case_.output.interval, case_.length, nextStop,
         [&](double z, std::span<const double> y) {
           std::vector<double> row{z, flow.residenceTime(y.data()), flow.velocity(y.data()), y[n],
                                   flow.density(y.data())};

@@ -17,6 +17,7 @@ std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
   switch (reactorCase.type) {
     case ReactorType::ConstantPressure:
     case ReactorType::ConstantVolume:
+    case ReactorType::GivenVolume:
       return closedReactorDriver(reactorCase);
     case ReactorType::PlugFlow:
       return plugFlowDriver(reactorCase);

@@ -4,15 +4,15 @@
 #include "app/deck/sensitivity_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/trees_deck.hpp"
-#include "app/problems/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_case_parts.hpp"
 
 namespace lampblack::app {
 namespace {
 
 const std::string typeKey = "reactor.type";
-const std::vector<std::string> closed{"constant_pressure", "constant_volume"};
-const std::vector<std::string> inTime{"constant_pressure", "constant_volume", "stirred", "network"};
-const std::vector<std::string> startsFromGas{"constant_pressure", "constant_volume", "stirred"};
+const std::vector<std::string> closed{"constant_pressure", "constant_volume", "given_volume"};
+const std::vector<std::string> inTime{"constant_pressure", "constant_volume", "given_volume", "stirred", "network"};
+const std::vector<std::string> startsFromGas{"constant_pressure", "constant_volume", "given_volume", "stirred"};
 
 // What a stirred reactor has, alone or in a network.
 void addVesselKeys(DeckSchema& schema, const std::string& section, const std::string& type) {
@@ -39,8 +39,10 @@ void addVesselKeys(DeckSchema& schema, const std::string& section, const std::st
 
 void addReactor(DeckSchema& schema) {
   schema
-      .add(choiceKey("reactor.type", {"constant_pressure", "constant_volume", "stirred", "plug_flow", "network"},
-                     "constant_pressure, constant_volume: closed and well mixed, from the section initial; stirred: "
+      .add(choiceKey("reactor.type",
+                     {"constant_pressure", "constant_volume", "given_volume", "stirred", "plug_flow", "network"},
+                     "constant_pressure, constant_volume, given_volume (in time, by the section volume): closed and "
+                     "well mixed, from the section initial; stirred: "
                      "perfectly stirred with a stream through it; plug_flow: a stream along a duct; network: stirred "
                      "reactors joined by streams."))
       .add(choiceKey("reactor.energy", {"adiabatic", "isothermal", "profile"},
@@ -129,7 +131,8 @@ void addProfile(DeckSchema& schema) {
   schema
       .section("temperature_profile", Presence::optional,
                "The given temperature: straight lines between points, constant beyond them. Points here or in a file.",
-               {{"reactor.energy", {"profile"}}, {typeKey, {"constant_pressure", "constant_volume", "plug_flow"}}})
+               {{"reactor.energy", {"profile"}},
+                {typeKey, {"constant_pressure", "constant_volume", "given_volume", "plug_flow"}}})
       .add(quantityKey("temperature_profile.time", units::time, "Times of the points, rising.")
                .list()
                .optional()
@@ -160,7 +163,12 @@ void addIgnition(DeckSchema& schema) {
                       "Whether the time of the largest dp/dt is reported as an ignition delay.")
                .byDefault("false")
                .onlyWith("reactor.energy", {"adiabatic"})
-               .onlyWith(typeKey, {"constant_volume"}))
+               .onlyWith(typeKey, {"constant_volume", "given_volume"}))
+      .add(choiceKey("ignition.from", {"start", "end_of_compression"},
+                     "What delays count from: the start of the run, or the time of the smallest volume, before which "
+                     "nothing counts as ignition.")
+               .byDefault("end_of_compression")
+               .onlyWith(typeKey, {"given_volume"}))
       .add(stringKey("ignition.species",
                      "Species whose times of the largest mole and of the largest mass fraction are reported as "
                      "ignition delays; OH only where the mechanism has it.")
@@ -175,7 +183,7 @@ void addIgnition(DeckSchema& schema) {
       schema,
       "Sensitivities d ln tau / d ln k of the ignition delays to the rate constants, forward and reverse "
       "together.",
-      "ignition_delay", {{typeKey, closed}});
+      "ignition_delay", {{typeKey, {"constant_pressure", "constant_volume"}}});
 }
 
 }  // namespace
@@ -185,7 +193,8 @@ DeckSchema reactorSchema() {
   schema.add(choiceKey("problem", {"reactor"}, "What is solved."))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"));
   addMechanismKeys(schema);
-  schema.add(quantityKey("pressure", units::pressure, "Pressure of the gas; with constant_volume that at the start.")
+  schema.add(quantityKey("pressure", units::pressure,
+                         "Pressure of the gas; with constant_volume and given_volume that at the start.")
                  .byDefault("1 atm")
                  .above(0));
   addReactor(schema);
@@ -195,6 +204,7 @@ DeckSchema reactorSchema() {
       .add(temperatureKey("initial.temperature", "Temperature of the gas."));
   addMixtureKeys(schema, "initial");
   addProfile(schema);
+  reactorcase::addVolumeKeys(schema);
   addNetwork(schema);
   schema
       .add(quantityKey("time.end", units::time,

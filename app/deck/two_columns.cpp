@@ -1,0 +1,124 @@
+#include "app/deck/two_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/text_file.hpp"
+#include "io/table_column.hpp"
+
+namespace lampblack::app {
+namespace {
+
+std::string trimmed(const std::string& line) {
+  return line.substr(0, line.find('\r'));
+}
+
+// The fields of a line, without the blanks and quotes around them: between commas, or between blanks where there are
+// none.
+std::vector<std::string> fieldsOf(std::string line) {
+  const bool commas = line.find(',') != std::string::npos;
+  std::vector<std::string> fields(1);
+  bool quoted = false;
+  for (const char c : line) {
+    const bool blank = c == ' ' || c == '\t' || c == '\r';
+    if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && (commas ? c == ',' : blank))
+      fields.emplace_back();
+    else if (quoted || !blank)
+      fields.back() += c;
+  }
+  if (!commas) std::erase(fields, "");
+  return fields;
+}
+
+// NaN and infinities are numbers that nobody wants here, not names.
+std::optional<double> numberIn(const std::string& field) {
+  const std::string_view digits = field.starts_with('+') ? std::string_view(field).substr(1) : std::string_view(field);
+  double value = 0;
+  const auto [end, status] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (digits.empty() || status == std::errc::invalid_argument || end != digits.data() + digits.size())
+    return std::nullopt;
+  return status == std::errc{} ? value : std::numeric_limits<double>::infinity();
+}
+
+// Of a header: units behind a blank belong to the name before them where blanks separate the columns.
+std::vector<std::string> joinedWithUnits(std::vector<std::string> names) {
+  for (std::size_t i = 1; i < names.size();) {
+    if (!names[i].starts_with('[') && !names[i].starts_with('(')) {
+      ++i;
+      continue;
+    }
+    names[i - 1] += ' ' + names[i];
+    names.erase(names.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+  return names;
+}
+
+}  // namespace
+
+TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimension& pointDimension,
+                          const units::Dimension& valueDimension, const std::string& example,
+                          const std::function<void(double)>& check) {
+  std::istringstream file(readTextFile(path, "a table of two columns"));
+  std::vector<double> points, values;
+  bool first = true;
+  std::size_t number = 0;
+  TableColumn pointColumn("", "", pointDimension), valueColumn("", "", valueDimension);
+  for (std::string line; std::getline(file, line);) {
+    ++number;
+    const std::vector<std::string> fields = fieldsOf(line);
+    if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); }) ||
+        fields[0].starts_with('#'))
+      continue;
+    const auto refuse = [&](const std::string& why) {
+      throw InputError(fmt::format("{}:{}: {}", path.string(), number, why));
+    };
+    const bool header =
+        std::exchange(first, false) &&
+        std::none_of(fields.begin(), fields.end(), [](const auto& field) { return numberIn(field).has_value(); });
+    if (header) {
+      const std::vector<std::string> names = joinedWithUnits(fields);
+      if (names.size() != 2) {
+        if (line.find_first_of("[(") != std::string::npos)
+          refuse(fmt::format("expected the names of two columns, '{}', found '{}'", example, trimmed(line)));
+        continue;
+      }
+      try {
+        const auto [pointName, pointUnit] = nameAndUnit(names[0]);
+        const auto [valueName, valueUnit] = nameAndUnit(names[1]);
+        pointColumn = TableColumn(pointName, pointUnit, pointDimension);
+        valueColumn = TableColumn(valueName, valueUnit, valueDimension);
+      } catch (const InputError& error) {
+        refuse(error.what());
+      }
+      continue;
+    }
+    auto point = numberIn(fields[0]), value = fields.size() == 2 ? numberIn(fields[1]) : std::nullopt;
+    if (!point || !value || !std::isfinite(*point) || !std::isfinite(*value))
+      refuse(fmt::format("expected two numbers, found '{}'", trimmed(line)));
+    point = pointColumn.inSI(*point);
+    value = valueColumn.inSI(*value);
+    if (!points.empty() && !(*point > points.back()))
+      refuse(fmt::format("the points have to rise; {} follows {}", *point, points.back()));
+    try {
+      check(*value);
+    } catch (const InputError& error) {
+      refuse(error.what());
+    }
+    points.push_back(*point);
+    values.push_back(*value);
+  }
+  if (points.empty()) throw InputError(fmt::format("{}: expected lines of two numbers, found none", path.string()));
+  return {std::move(points), std::move(values)};
+}
+
+}  // namespace lampblack::app
