@@ -1,0 +1,108 @@
+// The gas of a cylinder from one time to another: mixing, loss of heat, injection, reactions and the piston's
+// compression one after the other, of second order in the step (docs/theory/engine.md).
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+
+#include "chemistry/reactor/engine/engine_gas.hpp"
+#include "chemistry/reactor/engine/engine_heat.hpp"
+#include "chemistry/reactor/engine/engine_injection.hpp"
+#include "chemistry/reactor/engine/engine_mixing.hpp"
+#include "chemistry/reactor/engine/engine_reactions.hpp"
+#include "chemistry/reactor/engine/engine_table.hpp"
+#include "core/modules.hpp"
+
+namespace lampblack::chemistry {
+
+struct EngineOptions {
+  std::function<double(double time)> volume;  // m3
+
+  EngineMixingModel mixing = EngineMixingModel::none;
+  double mixingConstant = 2;
+  EngineTable mixingTime;  // s
+
+  EngineHeatLaw heat;
+  double jumpConstant = 0;        // of EngineHeatLoss
+  double wallTemperature = 400;   // K
+  double bore = 0;                // m
+  double pistonSpeed = 0;         // m/s, mean
+  double displacement = 0, clearance = 0;  // m3
+  double endArea = 0;             // m2, of head and piston
+  double motoredExponent = 1.35;  // of the pressure without combustion
+
+  std::optional<EngineInjection::Options> injection;
+  EngineTable injectionRate;  // kg/s
+
+  bool reacts = true;
+  ConstantPressureReactor::Options reactions;
+
+  double step = 0;                 // s
+  double pressureTolerance = 0.1;  // a step that changes the pressure by a larger part is halved
+  double temperatureTolerance = 0;  // K, any temperature; 0: none
+  int mostHalvings = 6;
+  std::uint64_t seed = 1, repeat = 0;
+};
+
+// What has been done since the start.
+struct EngineLedger {
+  double work = 0;      // J, on the piston
+  double heat = 0;      // J, to the walls
+  double chemical = 0;  // J, set free
+  double injectedMass = 0, injectedEnthalpy = 0;  // kg, J
+  double chemistrySteps = 0;
+  double largestDefect = 0;  // of the volume, by which reactions grew otherwise than foreseen: the error of a step
+  std::int64_t steps = 0, rejected = 0;
+};
+
+class EngineCylinder {
+ public:
+  // `mechanism` and `thermo` have to live as long.
+  EngineCylinder(MPI_Comm comm, const Mechanism& mechanism, const Thermo& thermo, EngineOptions options);
+
+  // The gas has the volume of that time, to round-off, afterwards.
+  void start(EngineGas gas, double time, std::uint64_t cycle);
+  // Collective. NumericsError.
+  void advanceTo(double time);
+
+  [[nodiscard]] const EngineGas& gas() const { return gas_; }
+  [[nodiscard]] const EngineLedger& ledger() const { return ledger_; }
+  [[nodiscard]] double time() const { return time_; }
+  [[nodiscard]] double conductance(double time) const;  // W/K
+  // What the balances lack: of the energy, over the heat capacity times temperature; of the element that lacks most,
+  // over what there is of it.
+  [[nodiscard]] double energyError() const;
+  [[nodiscard]] double elementError() const;
+
+ private:
+  struct State {
+    EngineGas gas;
+    EngineLedger ledger;
+    double growthRate = 0;
+  };
+  void step(double size, RandomStream& random);
+  double others(double from, double size, bool isFirst, RandomStream& random);
+  void compressTo(double volume) { ledger_.work += compression_.moveTo(volume, gas_); }
+  [[nodiscard]] bool isTooLarge(const EngineGas& before) const;
+
+  MPI_Comm comm_;
+  const Mechanism& mechanism_;
+  const Thermo& thermo_;
+  EngineOptions options_;
+  EngineCompression compression_;
+  EngineMixing mixing_;
+  EngineHeatLoss loss_;
+  std::optional<EngineInjection> injection_;
+  EngineReactions reactions_;
+  EngineGas gas_;
+  EngineLedger ledger_;
+  double time_ = 0, growthRate_ = 0, size_ = 0, defect_ = 0;
+  double startPressure_ = 0, startTemperature_ = 0, startVolume_ = 0, startEnergy_ = 0;
+  std::vector<double> startElements_;
+  std::uint64_t cycle_ = 0, attempts_ = 0;
+};
+
+}  // namespace lampblack::chemistry
