@@ -111,7 +111,7 @@ double EngineCylinder::others(double from, double size, bool isFirst, RandomStre
     inject();
     mix();
   }
-  ledger_.heat += loss_.advance(size, conductance(middle), options_.wallTemperature, random, gas_);
+  ledger_.heat += loss_.advance(size, conductance(middle, size), options_.wallTemperature, random, gas_);
   if (!isFirst) {
     mix();
     inject();
@@ -121,7 +121,7 @@ double EngineCylinder::others(double from, double size, bool isFirst, RandomStre
   return growth;
 }
 
-double EngineCylinder::conductance(double time) const {
+double EngineCylinder::conductance(double time, double duration) const {
   if (options_.heat.model == EngineHeatLaw::Model::none) return 0;
   const double volume = options_.volume(time);
   double mass = 0, capacity = 0, temperature = 0;
@@ -144,6 +144,10 @@ double EngineCylinder::conductance(double time) const {
   state.referenceVolume = startVolume_;
   state.motoredPressure = startPressure_ * std::pow(startVolume_ / volume, options_.motoredExponent);
   const double area = options_.endArea + 4 * (volume - options_.clearance) / options_.bore;
+  const double atStart = heatCoefficient(options_.heat, state) * area;
+  if (!(duration > 0)) return atStart;
+  const double wall = options_.wallTemperature;
+  state.temperature = wall + (state.temperature - wall) * std::exp(-0.5 * atStart * duration / capacity);
   return heatCoefficient(options_.heat, state) * area;
 }
 

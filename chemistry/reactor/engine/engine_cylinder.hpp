@@ -71,7 +71,8 @@ class EngineCylinder {
   [[nodiscard]] const EngineGas& gas() const { return gas_; }
   [[nodiscard]] const EngineLedger& ledger() const { return ledger_; }
   [[nodiscard]] double time() const { return time_; }
-  [[nodiscard]] double conductance(double time) const;  // W/K
+  // W/K, coefficient times area, with the gas's temperature as it is halfway through a loss of this duration (s).
+  [[nodiscard]] double conductance(double time, double duration) const;
   // What the balances lack: of the energy, over the heat capacity times temperature; of the element that lacks most,
   // over what there is of it.
   [[nodiscard]] double energyError() const;

@@ -76,7 +76,10 @@ double EngineHeatLoss::advance(double duration, double conductance, double wall,
   const double mass = std::accumulate(gas.mass.begin(), gas.mass.end(), 0.0);
   double lost = 0;
   for (std::size_t i = 0; i < gas.count(); ++i) {
-    const double T = gas.temperature[i], times = conductance * duration / (mass * thermo_.cpMass(T, gas.Y(i)));
+    const double T = gas.temperature[i], rate = conductance * duration / mass;
+    // The heat capacity is that halfway.
+    const double halfway = wall + (T - wall) * std::exp(-0.5 * rate / thermo_.cpMass(T, gas.Y(i)));
+    const double times = rate / thermo_.cpMass(halfway, gas.Y(i));
     const double left = jump_ > 0 ? std::pow(1 - 1 / jump_, poisson(random, jump_ * times)) : std::exp(-times);
     if (left == 1) continue;
     gas.temperature[i] = wall + (T - wall) * left;
