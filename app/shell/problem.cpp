@@ -4,6 +4,8 @@
 
 #include "app/problems/aggregates/aggregates_case.hpp"
 #include "app/problems/aggregates/aggregates_run.hpp"
+#include "app/problems/engine/engine_case.hpp"
+#include "app/problems/engine/engine_run.hpp"
 #include "app/problems/flame/flame_case.hpp"
 #include "app/problems/flame/flame_run.hpp"
 #include "app/problems/flow/flow_case.hpp"
@@ -44,6 +46,10 @@ const std::vector<Problem>& problems() {
        "Aggregates of overlapping spheres with places in space, joined on straight lines, that grow and sinter: their "
        "shape, and pictures of them.",
        aggregatesSchema, prepareAggregates},
+      {"engine",
+       "The gas of an engine's cylinder while its valves are closed, as particles that mix, react and lose heat at one "
+       "pressure: the stochastic reactor model.",
+       engineSchema, prepareEngine},
   };
   return table;
 }

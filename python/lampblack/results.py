@@ -63,7 +63,8 @@ class Results:
         self.is_along = problem in ("prescribed_gas", "particles_along")  # the second: before version 0.2
         self.is_pah = problem == "pah"
         self.is_aggregates = problem == "aggregates"
-        self.is_flow = not (self.is_along or self.is_reactor or self.is_population or self.is_flame or self.is_pah or self.is_aggregates)
+        self.is_engine = problem == "engine"
+        self.is_flow = not (self.is_along or self.is_reactor or self.is_population or self.is_flame or self.is_pah or self.is_aggregates or self.is_engine)
         if not self.is_flow:
             return
         if "mesh" not in self.file or "cellCentre" not in self.file["mesh"]:

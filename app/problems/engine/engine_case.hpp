@@ -1,0 +1,52 @@
+// What a deck with `problem: engine` asks for: an engine, its charge, what happens to the gas between the closing of
+// the inlet and the opening of the exhaust, how many particles and repeats, and what is written.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/reactor/engine/engine_cylinder.hpp"
+#include "chemistry/reactor/slider_crank.hpp"
+#include "core/modules.hpp"
+#include "io/deck.hpp"
+
+namespace lampblack::app {
+
+struct EngineCase {
+  std::string title;
+  std::shared_ptr<const Mechanism> mechanism;
+  SliderCrank crank;
+  double speed = 0;             // 1/s, turns
+  double start = 0, end = 0;    // deg, from the upper dead centre
+  double temperature = 0, pressure = 0;  // K, Pa, at the start
+  double temperatureDeviation = 0, ratioDeviation = 0;  // K; 1, of the particles at the start
+  std::vector<double> fresh;          // mass fractions
+  std::vector<double> fuel, oxidizer; // mole fractions, where the charge is given by them
+  double ratio = 0;                   // equivalence ratio of the fresh charge
+  double exhaust = 0;                 // part of the charge that is burnt gas, by mole or by mass
+  bool isExhaustByMole = false;
+  double exhaustFrozen = 0;           // K, at which the burnt gas is in equilibrium
+  double residual = 0;                // part by mass that stays of the cycle before
+  std::size_t mostCycles = 1;
+  double angleTolerance = 0, temperatureTolerance = 0;  // deg of CA50, K at the start
+  EngineOptions options;              // but the repeat
+  std::size_t particles = 0;
+  std::uint64_t repeats = 1, seed = 1;
+  double every = 0;                   // deg, between rows
+  std::vector<double> particlesAt;    // deg
+  std::vector<std::size_t> species;   // of the history, the particles and the emissions
+
+  [[nodiscard]] double timeOf(double angle) const { return (angle - start) / (360 * speed); }
+  [[nodiscard]] std::vector<double> angles() const;  // of the rows
+};
+
+// All keys such a deck may have.
+DeckSchema engineSchema();
+
+// Collective only in warnings; InputError, pointing into the deck.
+EngineCase readEngineCase(const Deck& deck);
+
+}  // namespace lampblack::app
