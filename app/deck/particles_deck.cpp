@@ -6,6 +6,7 @@
 
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/former_particles.hpp"
+#include "app/deck/molecules_deck.hpp"
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
@@ -21,18 +22,21 @@ void addDescription(DeckSchema& schema, const ParticlePlace& place, const std::v
     words += model.name + ": " + model.description + "; ";
   }
   all = names;
-  for (const char* other : {"ensemble", "trees", "none"}) all.emplace_back(other);
+  for (const char* other : {"ensemble", "trees", "molecules", "none"}) all.emplace_back(other);
   names.emplace_back("none");
   schema
       .section(particleSection, place.presence,
                place.description +
                    " In place of the sections 'soot' and 'stochastic' of former versions, which "
                    "are read as parts of this one, with a note.")
-      .add(choiceKey(descriptionKey, all,
-                     "What describes the particles. Models of soot that the gas carries: " + words +
-                         "ensemble: numerical particles by Monte Carlo, as key shape says; trees: the same as trees of "
-                         "primaries that share surface; none: as if the section were absent.")
-               .formerly("two_equation", "two_equation_dimer"))
+      .add(
+          choiceKey(
+              descriptionKey, all,
+              "What describes the particles. Models of soot that the gas carries: " + words +
+                  "ensemble: numerical particles by Monte Carlo, as key shape says; trees: the same as trees of "
+                  "primaries that share surface; molecules: trees of primaries that hold molecules, which grow site by "
+                  "site; none: as if the section were absent.")
+              .formerly("two_equation", "two_equation_dimer"))
       .add(choiceKey(materialKey, {"soot", "silica", "table"},
                      "What particles are made of. soot: carbon and hydrogen, by PAH, surface and switches. With trees, "
                      "or an ensemble by surface_volume, also silica: Si, O and OH from H4O4SI, which is Si(OH)4, "
@@ -54,7 +58,7 @@ void addShared(DeckSchema& schema, const ParticlePlace& place) {
   schema
       .add(quantityKey("particles.density", units::density,
                        "Density of particles; absent: of soot 1850 kg/m^3, with sectional and moss_brookes 1800, with "
-                       "leung 2000; of silica 2200 kg/m^3. A material of the deck's own needs it.")
+                       "leung 2000, of molecules 1470; of silica 2200 kg/m^3. A material of the deck's own needs it.")
                .optional()
                .above(0))
       .add(numberKey("particles.van_der_waals",
@@ -79,18 +83,21 @@ void addShared(DeckSchema& schema, const ParticlePlace& place) {
       .add(sampleNumberKey(particleSection, place.ensembleNumber)
                .formerly("particles")
                .byDefault(place.treeNumber, {treesOrOther}))
-      .add(splitToleranceKey(particleSection, "0.01").byDefault("0.05", {treesOrOther}));
+      .add(splitToleranceKey(particleSection, "0.01")
+               .byDefault("0.05", {{descriptionKey, {"trees", "molecules"}, {ofOtherMaterials()}}}));
   addSizeBinKeys(populations, particleSection);
   for (DeckKey& key : sootParticleKeys(particleSection)) populations.add(key.onlyWith(ofSoot()));
   schema.add(populations, ofPopulations());
-  schema.add(numberKey("particles.fractal_dimension",
-                       "Fractal dimension D_f in the diameter of collision, d_p n_p^(1/D_f) of n_p primaries of d_p. "
-                       "Absent: silica and trees of soot: 1.8, a table: 3; of an ensemble of soot by surface_volume "
-                       "the mean of the diameters of the spheres of the particle's volume and of its surface.")
-                 .optional()
-                 .atLeast(1)
-                 .atMost(3)
-                 .onlyWith({descriptionKey, {"trees", "none"}, {{"particles.shape", {"surface_volume"}}}}));
+  schema.add(
+      numberKey(
+          "particles.fractal_dimension",
+          "Fractal dimension D_f in the diameter of collision, d_p n_p^(1/D_f) of n_p primaries of d_p. "
+          "Absent: silica, trees of soot and molecules: 1.8, a table: 3; of an ensemble of soot by surface_volume "
+          "the mean of the diameters of the spheres of the particle's volume and of its surface.")
+          .optional()
+          .atLeast(1)
+          .atMost(3)
+          .onlyWith({descriptionKey, {"trees", "molecules", "none"}, {{"particles.shape", {"surface_volume"}}}}));
 }
 
 std::string textOfDescription(const Deck& deck) {
@@ -103,13 +110,22 @@ DeckCondition ofSoot() {
   return {materialKey, {"soot"}};
 }
 DeckCondition ofPopulations() {
-  return {descriptionKey, {"ensemble", "trees", "none"}};
+  return {descriptionKey, {"ensemble", "trees", "molecules", "none"}};
 }
 DeckCondition ofEnsembles() {
   return {descriptionKey, {"ensemble", "none"}};
 }
 DeckCondition ofTrees() {
   return {descriptionKey, {"trees", "none"}};
+}
+DeckCondition ofMolecules() {
+  return {descriptionKey, {"molecules", "none"}};
+}
+DeckCondition ofPrimaries() {
+  return {descriptionKey, {"trees", "molecules", "none"}};
+}
+DeckCondition ofEqualWeights() {
+  return {descriptionKey, {"trees", "molecules", "none"}, {ofOtherMaterials()}};
 }
 DeckCondition ofTreesOrOtherMaterials() {
   return {descriptionKey, {"trees", "none"}, {ofOtherMaterials()}};
@@ -132,16 +148,22 @@ void addParticleKeys(DeckSchema& schema, const ParticlePlace& place, const std::
   addShared(schema, place);
   addSootModelKeys(schema, models);
   addTreeKeys(schema);
+  addMoleculeKeys(schema);
   schema.formerly(formerParticleSections(place.besideModel));
 }
 
 bool hasPopulation(const Deck& deck) {
   const std::string description = textOfDescription(deck);
-  return description == "ensemble" || description == "trees";
+  return description == "ensemble" || description == "trees" || description == "molecules";
 }
 
 bool isOfTrees(const Deck& deck) {
-  return hasPopulation(deck) && (deck.choice(descriptionKey) == "trees" || deck.choice(materialKey) != "soot");
+  if (!hasPopulation(deck) || isOfMolecules(deck)) return false;
+  return deck.choice(descriptionKey) == "trees" || deck.choice(materialKey) != "soot";
+}
+
+bool isOfMolecules(const Deck& deck) {
+  return textOfDescription(deck) == "molecules";
 }
 
 std::string carriedModel(const Deck& deck) {
@@ -157,6 +179,8 @@ void requireDescription(const Deck& deck) {
   if (textOfDescription(deck) == "none") return;
   const std::string material = deck.choice(materialKey);
   if (material == "soot") return;
+  if (isOfMolecules(deck))
+    throw deck.error(descriptionKey, fmt::format("molecules are of soot, the particles are of {}", material));
   if (const std::string model = carriedModel(deck); model != "none")
     throw deck.error(carriedModelKey(deck),
                      fmt::format("{} is a model of soot, the particles are of {}: expected 'trees', or 'ensemble' with "

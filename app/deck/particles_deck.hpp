@@ -1,5 +1,6 @@
 // The section `particles` of every problem: what the particles are made of, and what describes them - a model that the
-// gas carries, an ensemble of numerical particles, or trees of primaries. Keys whose meaning is one stand once.
+// gas carries, an ensemble of numerical particles, trees of primaries, or molecules. Keys whose meaning is one stand
+// once.
 #pragma once
 
 #include <string>
@@ -28,20 +29,25 @@ void addParticleKeys(DeckSchema& schema, const ParticlePlace& place,
 
 // Conditions of keys. `description: none` is as if there were no particles, and leaves keys as they are.
 [[nodiscard]] DeckCondition ofSoot();         // by material
-[[nodiscard]] DeckCondition ofPopulations();  // ensembles and trees
+[[nodiscard]] DeckCondition ofPopulations();  // ensembles, trees and molecules
 [[nodiscard]] DeckCondition ofEnsembles();
 [[nodiscard]] DeckCondition ofTrees();
+[[nodiscard]] DeckCondition ofMolecules();
+[[nodiscard]] DeckCondition ofPrimaries();  // trees, of molecules or not
 // Trees, and whatever is not soot, which trees or a surface describe.
 [[nodiscard]] DeckCondition ofTreesOrOtherMaterials();
+// These and molecules, whose numerical particles all have one weight.
+[[nodiscard]] DeckCondition ofEqualWeights();
 // Materials other than soot.
 [[nodiscard]] DeckCondition ofOtherMaterials();
 // Some of the models, also where the gas carries one beside other particles.
 [[nodiscard]] DeckCondition ofModels(const DeckSchema& schema, std::vector<std::string> models);
 
-// Whether a deck asks for an ensemble or trees.
+// Whether a deck asks for an ensemble, trees or molecules.
 [[nodiscard]] bool hasPopulation(const Deck& deck);
 // Whether the particles are TreeEnsembles: trees, or by volume and surface of another material than soot.
 [[nodiscard]] bool isOfTrees(const Deck& deck);
+[[nodiscard]] bool isOfMolecules(const Deck& deck);
 // The model that the gas carries, "none" without, and the key that says so.
 [[nodiscard]] std::string carriedModel(const Deck& deck);
 [[nodiscard]] std::string carriedModelKey(const Deck& deck);

@@ -6,11 +6,13 @@
 
 #include "app/deck/ensemble_deck.hpp"
 #include "app/deck/initial_distribution.hpp"
+#include "app/deck/molecules_deck.hpp"
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "io/request_limits.hpp"
 #include "particles/ensemble/soot_ensemble.hpp"
+#include "particles/molecules/molecule_ensemble.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/trees/tree_ensemble.hpp"
 
@@ -25,6 +27,15 @@ std::size_t readTravellers(const Deck& deck, double bytes) {
   requireMemory(deck, "trajectories.particles", fmt::format("an ensemble of {} particles", particles),
                 bytes * particles);
   return static_cast<std::size_t>(particles);
+}
+
+void addRun(const PopulationRun& run, PopulationRequest& request) {
+  request.repeats = run.repeats;
+  request.bins = run.bins;
+  request.viscosity = run.viscosity;
+  request.tablesAt = run.tablesAt;
+  if (!run.classesByDiameter.empty()) request.classes.push_back({0, run.classesByDiameter});
+  if (!run.classesByPrimaries.empty()) request.classes.push_back({1, run.classesByPrimaries});
 }
 
 // Trees of primaries, and other materials by volume and surface.
@@ -44,12 +55,7 @@ PopulationRequest ofTrees(const MechanismOfDeck& mechanism, const TreeOptions& o
 PopulationRequest readTreePopulation(const Deck& deck, const MechanismOfDeck& mechanism) {
   const TreeRequest trees = readTrees(deck, *mechanism);
   PopulationRequest request = ofTrees(mechanism, trees.options, trees.start);
-  request.repeats = trees.repeats;
-  request.bins = trees.bins;
-  request.viscosity = trees.viscosity;
-  request.tablesAt = trees.tablesAt;
-  if (!trees.classesByDiameter.empty()) request.classes.push_back({0, trees.classesByDiameter});
-  if (!trees.classesByPrimaries.empty()) request.classes.push_back({1, trees.classesByPrimaries});
+  addRun(trees.run, request);
   return request;
 }
 
@@ -134,17 +140,59 @@ PopulationRequest readSootOnTrajectory(const Deck& deck, const MechanismOfDeck& 
   return ofSoot(mechanism, options, {});
 }
 
+// Molecules.
+
+PopulationRequest ofMoleculeOptions(const MechanismOfDeck& mechanism, const MoleculeOptions& options) {
+  PopulationRequest request;
+  request.make = [mechanism, options](std::uint64_t owner) {
+    MoleculeOptions own = options;
+    own.owner = owner;
+    return std::make_unique<MoleculeEnsemble>(*mechanism, own);
+  };
+  request.hasStart = options.atStart > 0;
+  return request;
+}
+
+PopulationRequest readMoleculePopulation(const Deck& deck, const MechanismOfDeck& mechanism) {
+  MoleculeOptions options = readMoleculeOptions(deck, *mechanism);
+  options.fullAt = deck.quantity("particles.expected_number");
+  options.seed = deck.integer<std::uint64_t>("particles.seed");
+  PopulationRequest request = ofMoleculeOptions(mechanism, options);
+  addRun(readPopulationRun(deck, true, options.particles), request);
+  return request;
+}
+
+MoleculeOptions inCells(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed) {
+  MoleculeOptions options = readMoleculeOptions(deck, *mechanism);
+  options.seed = seed;
+  options.fullAt = deck.quantity("particles.minimum_number_density");
+  return options;
+}
+
+PopulationRequest readMoleculesInCells(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed) {
+  return ofMoleculeOptions(mechanism, inCells(deck, mechanism, seed));
+}
+
+// As in the cells.
+PopulationRequest readMoleculesOnTrajectory(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed) {
+  MoleculeOptions options = inCells(deck, mechanism, seed);
+  options.particles = readTravellers(deck, 10000);
+  options.splitTolerance = deck.number("trajectories.split_tolerance");
+  return ofMoleculeOptions(mechanism, options);
+}
+
 struct KindOfPopulation {
   PopulationRequest (*read)(const Deck& deck, const MechanismOfDeck& mechanism);
   PopulationRequest (*readInCells)(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed);
   PopulationRequest (*readOnTrajectory)(const Deck& deck, const MechanismOfDeck& mechanism, std::uint64_t seed);
 };
 constexpr KindOfPopulation treeKind{readTreePopulation, readTreesInCells, readTreesOnTrajectory},
+    moleculeKind{readMoleculePopulation, readMoleculesInCells, readMoleculesOnTrajectory},
     sootKind{readSootPopulation, readSootInCells, readSootOnTrajectory};
 
 const KindOfPopulation& kindOf(const Deck& deck) {
   requireDescription(deck);
-  return isOfTrees(deck) ? treeKind : sootKind;
+  return isOfTrees(deck) ? treeKind : isOfMolecules(deck) ? moleculeKind : sootKind;
 }
 
 // Of one that is made, which finds what it lacks.

@@ -88,43 +88,25 @@ void addTable(DeckSchema& schema) {
 void addSintering(DeckSchema& schema) {
   const std::string s = "particles.sintering.";
   schema.section("particles.sintering", Presence::defaulted, "How primaries that touch become one.",
-                 {ofTreesOrOtherMaterials()});
+                 {ofEqualWeights()});
   addSinteringLawKeys(schema, "particles.sintering");
   schema
       .add(choiceKey(s + "size", {"smaller", "volume_to_surface"},
                      "The size d in the law: that of the smaller of two neighbours (Shekar et al. 2011), or 6 V/S of "
                      "what sinters.")
                .byDefault("smaller")
-               .onlyWith(ofTrees()))
+               .onlyWith(ofPrimaries()))
       .add(choiceKey(s + "between", {"neighbours", "parts"},
                      "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate "
                      "that a collision joined, with the whole volume and surface of both, as the program MOpS does.")
                .byDefault("neighbours")
-               .onlyWith(ofTrees()))
+               .onlyWith(ofPrimaries()))
       .add(
           choiceKey(s + "inner_parts", {"sphere", "nothing"},
                     "What the surface of parts within an aggregate goes towards where parts sinter: that of the sphere "
                     "of their volume; or nothing, as the program MOpS computes it.")
               .byDefault("sphere")
-              .onlyWith(ofTrees()));
-}
-
-// `law`: the material's own.
-SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
-  const std::string s = "particles.sintering.";
-  law = readSinteringLaw(deck, "particles.sintering", law);
-  if (deck.has(s + "size")) {
-    law.size = deck.choice(s + "size") == "smaller" ? SinteringLaw::Size::smaller : SinteringLaw::Size::volumeToSurface;
-    law.between =
-        deck.choice(s + "between") == "neighbours" ? SinteringLaw::Between::neighbours : SinteringLaw::Between::parts;
-    law.innerSpheres = deck.choice(s + "inner_parts") == "sphere";
-    if (!law.innerSpheres && law.between == SinteringLaw::Between::neighbours)
-      throw deck.error(s + "inner_parts", "only where 'between' is 'parts' do parts within an aggregate sinter");
-    if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)
-      throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
-  }
-  requirePrefactor(deck, "particles.sintering", law);
-  return law;
+              .onlyWith(ofPrimaries()));
 }
 
 TreeMaterial readSoot(const Deck& deck, const Mechanism& mechanism) {
@@ -204,6 +186,23 @@ void addTreeMaterialKeys(DeckSchema& schema) {
   addReactions(schema);
   addTable(schema);
   addSintering(schema);
+}
+
+SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
+  const std::string s = "particles.sintering.";
+  law = readSinteringLaw(deck, "particles.sintering", law);
+  if (deck.has(s + "size")) {
+    law.size = deck.choice(s + "size") == "smaller" ? SinteringLaw::Size::smaller : SinteringLaw::Size::volumeToSurface;
+    law.between =
+        deck.choice(s + "between") == "neighbours" ? SinteringLaw::Between::neighbours : SinteringLaw::Between::parts;
+    law.innerSpheres = deck.choice(s + "inner_parts") == "sphere";
+    if (!law.innerSpheres && law.between == SinteringLaw::Between::neighbours)
+      throw deck.error(s + "inner_parts", "only where 'between' is 'parts' do parts within an aggregate sinter");
+    if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)
+      throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
+  }
+  requirePrefactor(deck, "particles.sintering", law);
+  return law;
 }
 
 TreeMaterial readTreeMaterial(const Deck& deck, const Mechanism& mechanism) {

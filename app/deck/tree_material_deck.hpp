@@ -12,5 +12,7 @@ void addTreeMaterialKeys(DeckSchema& schema);
 
 // With how it sinters. InputError, pointing into the deck.
 [[nodiscard]] TreeMaterial readTreeMaterial(const Deck& deck, const Mechanism& mechanism);
+// How primaries sinter; `law`: the material's own.
+[[nodiscard]] SinteringLaw readSintering(const Deck& deck, SinteringLaw law);
 
 }  // namespace lampblack::app

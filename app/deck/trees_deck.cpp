@@ -29,7 +29,7 @@ void addProcesses(DeckSchema& schema) {
       .add(choiceKey("particles.kernel", {"transition", "free_molecular", "continuum"},
                      "Collision rates: harmonic mean of the two limits, or one of them.")
                .byDefault("transition")
-               .onlyWith(ofTreesOrOtherMaterials()))
+               .onlyWith(ofEqualWeights()))
       .add(choiceKey(
                "particles.inception_kernel", {"coagulation", "free_molecular"},
                "Collision rate of two molecules that become a particle: coagulation, by the kernel of particles with "
@@ -55,7 +55,7 @@ DeckKey tablesAt() {
       .list()
       .optional()
       .atLeast(0)
-      .onlyWith(ofTrees());
+      .onlyWith(ofPrimaries());
 }
 
 void addClasses(DeckSchema& schema) {
@@ -72,7 +72,7 @@ void addClasses(DeckSchema& schema) {
                .list()
                .optional()
                .above(0));
-  schema.add(part, ofTreesOrOtherMaterials());
+  schema.add(part, ofEqualWeights());
 }
 
 // Ends of classes, rising.
@@ -147,7 +147,7 @@ void addTreeRunKeys(DeckSchema& schema) {
                  .formerly("full_at")
                  .byDefault("1e18 1/m^3")
                  .above(0)
-                 .onlyWith(ofTreesOrOtherMaterials()));
+                 .onlyWith(ofEqualWeights()));
 }
 
 void addTreeReactorKeys(DeckSchema& schema) {
@@ -157,14 +157,14 @@ void addTreeReactorKeys(DeckSchema& schema) {
                      "transport: from these data.")
                .byDefault("transport")
                .byDefault("air", {ofOtherMaterials()})
-               .onlyWith(ofTreesOrOtherMaterials()))
+               .onlyWith(ofEqualWeights()))
       .add(tablesAt().onlyWith("reactor.type", {"constant_pressure", "constant_volume", "stirred"}))
       .add(quantityKey("particles.tables_at_place", units::length, "The same by places along a plug flow.")
                .list()
                .optional()
                .atLeast(0)
                .onlyWith("reactor.type", {"plug_flow"})
-               .onlyWith(ofTrees()));
+               .onlyWith(ofPrimaries()));
   addTreeRunKeys(schema);
   addClasses(schema);
 }
@@ -175,6 +175,17 @@ void addTreePrescribedGasKeys(DeckSchema& schema) {
   addClasses(schema);
 }
 
+CollisionKernelOptions readCollisions(const Deck& deck) {
+  CollisionKernelOptions options;
+  const std::string kernel = deck.choice("particles.kernel");
+  options.type = kernel == "transition"       ? CollisionKernelType::transition
+                 : kernel == "free_molecular" ? CollisionKernelType::freeMolecular
+                                              : CollisionKernelType::continuum;
+  options.enhancement = deck.number("particles.van_der_waals");
+  options.slip = deck.choice("particles.slip") == "air" ? SlipLaw::air : SlipLaw::davies;
+  return options;
+}
+
 TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   TreeOptions options;
   options.material = readTreeMaterial(deck, mechanism);
@@ -182,15 +193,10 @@ TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   options.sinteringTolerance = deck.number("particles.sintering.tolerance");
   options.coagulation = deck.boolean("particles.coagulation");
   if (deck.choice(descriptionKey) == "ensemble") options.shape = TreeShape::surfaceVolume;
-  const std::string kernel = deck.choice("particles.kernel");
-  options.kernel.type = kernel == "transition"       ? CollisionKernelType::transition
-                        : kernel == "free_molecular" ? CollisionKernelType::freeMolecular
-                                                     : CollisionKernelType::continuum;
+  options.kernel = readCollisions(deck);
   if (soot == nullptr)
     options.material.siteReactions().freeMolecularInception =
         deck.choice("particles.inception_kernel") == "free_molecular";
-  options.kernel.enhancement = deck.number("particles.van_der_waals");
-  options.kernel.slip = deck.choice("particles.slip") == "air" ? SlipLaw::air : SlipLaw::davies;
   options.size = deck.choice("particles.collision_size") == "primaries" ? CollisionSize::primaries
                                                                         : CollisionSize::volumeToSurface;
   options.particles = readSampleNumber(deck, "particles", 1000);  // some ten primaries each
@@ -257,28 +263,33 @@ std::vector<TreeStart> readTreeStart(const Deck& deck, const TreeOptions& option
   return starts;
 }
 
-TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
-  TreeRequest request;
-  TreeOptions& options = request.options = readTreeOptions(deck, mechanism);
-  const bool isSoot = options.material.soot() != nullptr;
-  options.fullAt = deck.quantity("particles.expected_number");
-  options.seed = deck.integer<std::uint64_t>("particles.seed");
-  request.start = readTreeStart(deck, options);
-  request.repeats = deck.integer<std::size_t>("particles.repeats");
-  request.bins = readSizeBins(deck, "particles");
-  if (isFlame(deck)) return request;
+PopulationRun readPopulationRun(const Deck& deck, bool isSoot, std::size_t particles) {
+  PopulationRun run;
+  run.repeats = deck.integer<std::size_t>("particles.repeats");
+  run.bins = readSizeBins(deck, "particles");
+  if (isFlame(deck)) return run;
   const bool isAir = isAlong(deck)
                          ? deck.optionalString("gas.viscosity").value_or(isSoot ? "transport" : "air") == "air"
                          : deck.choice("particles.viscosity") == "air";
-  request.viscosity = isAir ? GasViscosity::air : GasViscosity::transport;
-  request.tablesAt = readTablesAt(deck);
+  run.viscosity = isAir ? GasViscosity::air : GasViscosity::transport;
+  run.tablesAt = readTablesAt(deck);
   if (const std::string key = "particles.classes.collision_diameter"; deck.has(key))
-    request.classesByDiameter = risingEdges(deck, key, deck.quantities(key));
+    run.classesByDiameter = risingEdges(deck, key, deck.quantities(key));
   if (const std::string key = "particles.classes.primaries"; deck.has(key))
-    request.classesByPrimaries = risingEdges(deck, key, deck.numbers(key));
-  if (const std::size_t tables = request.tablesAt.size(); tables > 0)
-    requireMemory(deck, tablesKey(deck), fmt::format("{} tables of {} particles", tables, options.particles),
-                  1000 * static_cast<double>(tables) * static_cast<double>(options.particles));
+    run.classesByPrimaries = risingEdges(deck, key, deck.numbers(key));
+  if (const std::size_t tables = run.tablesAt.size(); tables > 0)
+    requireMemory(deck, tablesKey(deck), fmt::format("{} tables of {} particles", tables, particles),
+                  1000 * static_cast<double>(tables) * static_cast<double>(particles));
+  return run;
+}
+
+TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
+  TreeRequest request;
+  TreeOptions& options = request.options = readTreeOptions(deck, mechanism);
+  options.fullAt = deck.quantity("particles.expected_number");
+  options.seed = deck.integer<std::uint64_t>("particles.seed");
+  request.start = readTreeStart(deck, options);
+  request.run = readPopulationRun(deck, options.material.soot() != nullptr, options.particles);
   return request;
 }
 

@@ -14,15 +14,20 @@
 
 namespace lampblack::app {
 
-struct TreeRequest {
-  TreeOptions options;
+// What runs have that repeat populations of particles of equal weights: in reactors, along a given gas, in a flame.
+struct PopulationRun {
   GasViscosity viscosity = GasViscosity::transport;
-  std::vector<TreeStart> start;  // what is there from the beginning
   std::size_t repeats = 1;
   SizeBins bins;
   std::vector<double> tablesAt;  // s (plug flow: m), rising
-  // Edges of classes, rising, in the order of TreeEnsemble::classedBy(); of none no averages are wanted.
+  // Edges of classes, rising, in the order of StochasticPopulation::classedBy(); of none no averages are wanted.
   std::vector<double> classesByDiameter, classesByPrimaries;
+};
+
+struct TreeRequest {
+  TreeOptions options;
+  std::vector<TreeStart> start;  // what is there from the beginning
+  PopulationRun run;
 };
 
 // The keys of trees that all problems have: material, collisions, sintering.
@@ -35,6 +40,10 @@ void addTreeRunKeys(DeckSchema& schema);
 void addTreeReactorKeys(DeckSchema& schema);
 void addTreePrescribedGasKeys(DeckSchema& schema);
 
+// How particles of equal weights collide.
+[[nodiscard]] CollisionKernelOptions readCollisions(const Deck& deck);
+// `particles`: numerical ones. InputError, pointing into the deck.
+[[nodiscard]] PopulationRun readPopulationRun(const Deck& deck, bool isSoot, std::size_t particles);
 // Of a deck with such particles, what all problems have. InputError, pointing into the deck.
 [[nodiscard]] TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism);
 // What `particles.initial` says is there from the beginning; a sample that misses moments of it is told.

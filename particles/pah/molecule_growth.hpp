@@ -15,9 +15,20 @@
 
 namespace lampblack::particles {
 
+// By process: what happened, and what was void.
+struct MoleculeEvents {
+  using Counts = std::array<std::uint64_t, pahProcessCount>;
+  Counts happened{}, voids{};
+};
+
+// 1/s, of all that may happen to a molecule.
+[[nodiscard]] double totalRate(const Molecule& molecule, const PahRates& rates);
+// One jump, of a molecule with a rate above zero. NumericsError where it outgrows its lattice.
+void jump(Molecule& molecule, const PahRates& rates, RandomStream& random, MoleculeEvents& events);
+
 class MoleculeGrowth {
  public:
-  using Counts = std::array<std::uint64_t, pahProcessCount>;
+  using Counts = MoleculeEvents::Counts;
   static constexpr std::size_t noLimit = std::numeric_limits<std::size_t>::max();
 
   // A molecule of more rings than `mostRings` has left: nothing happens to it any more.
@@ -31,14 +42,14 @@ class MoleculeGrowth {
   [[nodiscard]] const Molecule& molecule() const { return molecule_; }
   [[nodiscard]] bool hasLeft() const { return molecule_.rings() > mostRings_; }
   // By process: what happened, and what was void.
-  [[nodiscard]] const Counts& events() const { return events_; }
-  [[nodiscard]] const Counts& voids() const { return voids_; }
+  [[nodiscard]] const Counts& events() const { return events_.happened; }
+  [[nodiscard]] const Counts& voids() const { return events_.voids; }
 
  private:
   Molecule molecule_;
   RandomStream random_;
   std::size_t mostRings_;
-  Counts events_{}, voids_{};
+  MoleculeEvents events_;
 };
 
 }  // namespace lampblack::particles

@@ -76,6 +76,14 @@ std::vector<std::string> pahGasSpeciesNames() {
   return names;
 }
 
+double oxidationByOH(const PahRateConstants& constants, double temperature, std::span<const double> concentrations) {
+  PahRateConstants withoutOH = constants;
+  withoutOH.oxidationOH = {};
+  const auto place = static_cast<std::size_t>(PahProcess::O6R_FE3);
+  const double all = pahRates(constants, temperature, concentrations)[place];
+  return all > 0 ? 1 - pahRates(withoutOH, temperature, concentrations)[place] / all : 0;
+}
+
 PahRates pahRates(const PahRateConstants& constants, double temperature, std::span<const double> concentrations) {
   if (!(temperature > 0) || !std::isfinite(temperature))
     throw NumericsError(fmt::format("rates of molecules: {:g} K is no temperature", temperature));

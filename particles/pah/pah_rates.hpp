@@ -74,6 +74,10 @@ inline constexpr std::size_t pahGasSpecies = SootSpecies::C2H2 + 1;
 // 1/s, of each process.
 using PahRates = std::array<double, pahProcessCount>;
 
+// The part of O6R_... that OH does rather than O2; zero where neither does.
+[[nodiscard]] double oxidationByOH(const PahRateConstants& constants, double temperature,
+                                   std::span<const double> concentrations);
+
 // `concentrations`: mol/m3, of pahGasSpecies. NumericsError for a temperature or concentrations that are not physical.
 [[nodiscard]] PahRates pahRates(const PahRateConstants& constants, double temperature,
                                 std::span<const double> concentrations);

@@ -150,7 +150,7 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
     // What is known of necks travels with them, as fuseNeck() moves them.
     const auto start = static_cast<std::ptrdiff_t>(necks[k].first), place = static_cast<std::ptrdiff_t>(k);
     const std::ptrdiff_t behind = place + static_cast<std::ptrdiff_t>(b) - (place + 1);
-    fuseNeck(tree, k, type_.material());
+    fuse(tree, k);
     courses_.erase(courses_.begin() + place);
     left_.erase(left_.begin() + place);
     std::rotate(courses_.begin() + start, courses_.begin() + place, courses_.begin() + behind);
@@ -166,6 +166,12 @@ void TreeSintering::neighbours(Tree& handle, double dt, Changes& changes) {
   sizePrimaries(tree);
 }
 
+std::size_t TreeSintering::fuse(TreeHead& tree, std::size_t k) {
+  const TreeNeck& neck = necksOf(&tree)[k];
+  if (fusions_ != nullptr) fusions_->push_back({neck.first, static_cast<std::uint32_t>(k), neck.left, neck.right});
+  return fuseNeck(tree, k, type_.material());
+}
+
 bool TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
   const TreeNeck* necks = necksOf(&tree);
   const std::uint32_t count = tree.count;
@@ -174,7 +180,7 @@ bool TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
       ++k;
       continue;
     }
-    k = static_cast<std::uint32_t>(fuseNeck(tree, k, type_.material()));
+    k = static_cast<std::uint32_t>(fuse(tree, k));
     ++changes.fused;
   }
   if (tree.count == count) return false;

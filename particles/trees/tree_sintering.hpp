@@ -23,6 +23,12 @@
 
 namespace lampblack::particles {
 
+// Two primaries that became one: the right one's place and that of the left one, in whose place the new one stands
+// before the others move (fuseNeck()).
+struct FusedPrimaries {
+  std::uint32_t first = 0, neck = 0, left = 0, right = 0;
+};
+
 class TreeSintering {
  public:
   struct Changes {
@@ -43,6 +49,9 @@ class TreeSintering {
     const TreeHead& head = tree.head();
     if (isAggregate(head) && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes, isMeasured);
   }
+
+  // Each fusion of primaries is told to `fusions`, for who keeps more of primaries than a tree does; null: not.
+  void tell(std::vector<FusedPrimaries>* fusions) { fusions_ = fusions; }
 
   static constexpr double step = 0.005;
 
@@ -72,9 +81,11 @@ class TreeSintering {
   // Whether any did, and the tree is measured.
   bool fuseAll(TreeHead& tree, Changes& changes);
   void rest(TreeHead& tree, double time);
+  std::size_t fuse(TreeHead& tree, std::size_t k);
 
   const PrimaryTrees& type_;
   double tolerance_, T_ = 0;
+  std::vector<FusedPrimaries>* fusions_ = nullptr;
   double volumeOfSite_ = 0;  // m3 that a site takes along as it becomes half a bridge
   bool fresh_ = false;       // rates_ are those of the tree that has just changed, hardly
   std::vector<Course> courses_;

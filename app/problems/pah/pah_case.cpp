@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "app/deck/gas_input.hpp"
-#include "app/problems/pah/pah_rates_deck.hpp"
+#include "app/deck/pah_rates_deck.hpp"
 #include "app/problems/prescribed_gas/given_gas_deck.hpp"
 #include "chemistry/mechanism/known_species.hpp"
 #include "core/constants.hpp"
@@ -93,19 +93,6 @@ ParticlePath readGas(const Deck& deck) {
   for (const char* name : {"H", "H2", "C2H2"})
     deck.at("mechanism", [&] { return knownSpecies(*mechanism, name, "molecules need"); });
   return readGivenPath(deck, *mechanism, pahGasSpeciesNames(), GasViscosity::air);
-}
-
-std::array<bool, pahProcessCount> readProcesses(const Deck& deck) {
-  std::array<bool, pahProcessCount> active{};
-  if (!deck.has("processes")) {
-    active.fill(true);
-    return active;
-  }
-  for (const std::string& name : deck.strings("processes"))
-    active[static_cast<std::size_t>(
-        std::ranges::find(pahProcesses, name, [](const PahProcessRow& row) { return std::string(row.name); }) -
-        pahProcesses.begin())] = true;
-  return active;
 }
 
 void readRowsAndSpectra(const Deck& deck, PahCase& pah) {
@@ -226,7 +213,8 @@ PahCase readPahCase(const Deck& deck) {
   readRowsAndSpectra(deck, pah);
   pah.growth = deck.at("rates", [&] {
     try {
-      return growthPath(pah.path, pah.recorded, pah.constants, readProcesses(deck), deck.number("rate_change"));
+      return growthPath(pah.path, pah.recorded, pah.constants, readPahProcesses(deck, "processes"),
+                        deck.number("rate_change"));
     } catch (const NumericsError& error) {
       throw InputError(error.what());
     }

@@ -63,7 +63,7 @@ std::vector<std::string> precursorsOf(const Deck& deck, const Mechanism& mechani
   return sootPrecursors(readSootModelOptions(deck, mechanism));
 }
 
-// Trees, or ensembles that deplete the gas.
+// Trees, molecules, or ensembles that deplete the gas.
 ReactorCase readCoupled(const Deck& deck, const PrescribedGasCase& along) {
   const Mechanism& mechanism = *along.mechanism;
   ReactorCase coupled;
@@ -122,7 +122,7 @@ PrescribedGasCase readPrescribedGasCase(const Deck& deck) {
   requireOneGas(deck);
   if (deck.has("gas.flame") && deck.optionalString("gas.viscosity") == "air")
     throw deck.error("gas.viscosity", "that of a flame comes from its transport data; leave this out");
-  if (isOfTrees(deck) || (hasPopulation(deck) && isTwoWay(deck))) {
+  if (isOfTrees(deck) || isOfMolecules(deck) || (hasPopulation(deck) && isTwoWay(deck))) {
     along.coupled = readCoupled(deck, along);
     return along;
   }

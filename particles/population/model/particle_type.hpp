@@ -42,6 +42,9 @@ concept ParticleType = CoagulatingType<Type> && requires(const Type type, const 
 // terms(kernel, p), bounds until the end of the step; orderVolume(p), constant until the end of the step; largest(p, f)
 // of a monotone f(volume) until then.
 
+// A type of which not every collision joins two particles has a member sticking(p, q), from 0 to 1, a factor of the
+// kernel.
+
 // Two particles as one. A type whose particles join at a place that is drawn has coagulated(Particle&&, Particle&&,
 // RandomStream&).
 template <class Type>

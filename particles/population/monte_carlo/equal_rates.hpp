@@ -96,7 +96,11 @@ class EqualRates {
   }
   [[nodiscard]] double pair(const Entry& i, const Entry& j) const {
     if (changing && !(exists(type_, i.particle) && exists(type_, j.particle))) return 0;
-    return kernel_->value(properties(i), properties(j));
+    const double rate = kernel_->value(properties(i), properties(j));
+    if constexpr (requires { type_.sticking(i.particle, j.particle); })
+      return rate * type_.sticking(i.particle, j.particle);
+    else
+      return rate;
   }
 
   [[nodiscard, gnu::always_inline]] double single(SingleProcess process, const Entry& entry) const {

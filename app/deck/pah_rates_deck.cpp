@@ -1,7 +1,8 @@
-#include "app/problems/pah/pah_rates_deck.hpp"
+#include "app/deck/pah_rates_deck.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -82,26 +83,39 @@ void readTable(const Deck& deck, const std::string& prefix, PahRateConstants& co
 
 }  // namespace
 
-void addPahRateKeys(DeckSchema& schema) {
-  schema.section("rates", Presence::defaulted,
+void addPahRateKeys(DeckSchema& schema, const std::string& section) {
+  schema.section(section, Presence::defaulted,
                  "Rate constants of the processes; the defaults and their sources are those of docs/theory/pah.md.");
-  schema.add(stringKey("rates.file",
+  schema.add(stringKey(section + ".file",
                        "YAML file of rate constants by the names below, relative to the deck; those that it leaves out "
                        "have their defaults, those that the deck has too are the deck's.")
                  .optional());
-  schema.add(rateTable("rates."));
+  schema.add(rateTable(section + "."));
 }
 
-PahRateConstants readPahRates(const Deck& deck) {
+PahRateConstants readPahRates(const Deck& deck, const std::string& section) {
   PahRateConstants constants;
-  if (deck.has("rates.file"))
-    deck.at("rates.file", [&] {
-      const Deck table = Deck::load(deck.resolvePath(deck.string("rates.file")), {}, rateTable(""));
+  if (const std::string file = section + ".file"; deck.has(file))
+    deck.at(file, [&] {
+      const Deck table = Deck::load(deck.resolvePath(deck.string(file)), {}, rateTable(""));
       readTable(table, "", constants);
       return 0;
     });
-  readTable(deck, "rates.", constants);
+  readTable(deck, section + ".", constants);
   return constants;
+}
+
+std::array<bool, pahProcessCount> readPahProcesses(const Deck& deck, const std::string& key) {
+  std::array<bool, pahProcessCount> active{};
+  if (!deck.has(key)) {
+    active.fill(true);
+    return active;
+  }
+  for (const std::string& name : deck.strings(key))
+    active[static_cast<std::size_t>(
+        std::ranges::find(pahProcesses, name, [](const PahProcessRow& row) { return std::string(row.name); }) -
+        pahProcesses.begin())] = true;
+  return active;
 }
 
 }  // namespace lampblack::app

@@ -1,0 +1,174 @@
+#include "app/deck/molecules_deck.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "app/deck/pah_rates_deck.hpp"
+#include "app/deck/particles_deck.hpp"
+#include "app/deck/sample_deck.hpp"
+#include "app/deck/tree_material_deck.hpp"
+#include "particles/pah/named_molecules.hpp"
+
+namespace lampblack::app {
+namespace {
+
+const std::string section = "particles.molecules";
+
+std::string names(const std::vector<std::string>& all) {
+  std::string text;
+  for (const std::string& name : all) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+// Those of other descriptions of soot that mean nothing here.
+constexpr const char* meaningless[] = {"particles.sticking",      "particles.alpha",        "particles.site_density",
+                                       "particles.oh_efficiency", "particles.inception_by", "particles.heavy_particles",
+                                       "particles.keep_hydrogen", "particles.active_sites"};
+
+void addCollisions(DeckSchema& schema) {
+  schema
+      .add(choiceKey(section + ".inception", {"pairs", "as_in_gas"},
+                     "How molecules of the gas become particles. pairs: two that collide and stick are a particle, and "
+                     "single ones condense on particles; as_in_gas: as many particles of one molecule are there as the "
+                     "gas has molecules of particles.pah, and meet others as particles do, in a gas that stays as it "
+                     "is given: prescribed_gas, one way.")
+               .byDefault("pairs"))
+      .add(numberKey(section + ".inception_efficiency",
+                     "Factor of the collisions of pairs that become a particle, besides what sticks.")
+               .byDefault("1")
+               .atLeast(0)
+               .atMost(1))
+      .add(numberKey(section + ".condensation_efficiency",
+                     "Factor of the collisions of molecules of the gas with particles, besides what sticks.")
+               .byDefault("1")
+               .atLeast(0)
+               .atMost(1))
+      .add(choiceKey(section + ".sticks", {"always", "smaller", "larger", "together", "reduced", "by_size"},
+                     "Which molecules stick to each other and to particles, of which the largest molecule counts: all; "
+                     "where the smaller one, the larger one, both together, or the product over the sum of both has "
+                     "sticking_rings; by_size: with the probability 1/(1 + exp(-A (d^3/m + (m/B)^6 - C))) of the "
+                     "smaller one, d in Angstrom, m = 12 times its carbon atoms. Particles of several molecules always "
+                     "stick to each other.")
+               .byDefault("always"))
+      .add(numberKey(section + ".sticking_rings", "Rings that are needed to stick.")
+               .byDefault("0")
+               .atLeast(0)
+               .onlyWith(section + ".sticks", {"smaller", "larger", "together", "reduced"}))
+      .add(numberKey(section + ".sticking_constants", "A, B and C of by_size.")
+               .list(3)
+               .optional()
+               .onlyWith(section + ".sticks", {"by_size"}));
+}
+
+MoleculeSticking readSticking(const Deck& deck) {
+  using Rule = MoleculeSticking::Rule;
+  MoleculeSticking sticking;
+  const std::string rule = deck.choice(section + ".sticks");
+  sticking.rule = rule == "always"     ? Rule::always
+                  : rule == "smaller"  ? Rule::smaller
+                  : rule == "larger"   ? Rule::larger
+                  : rule == "together" ? Rule::together
+                  : rule == "reduced"  ? Rule::reduced
+                                       : Rule::bySize;
+  if (rule != "by_size") {
+    if (rule != "always") sticking.rings = deck.number(section + ".sticking_rings");
+    return sticking;
+  }
+  const std::string key = section + ".sticking_constants";
+  if (!deck.has(key)) throw deck.error(section + ".sticks", "by_size needs sticking_constants: A, B, C");
+  const std::vector<double> constants = deck.numbers(key);
+  sticking.A = constants[0];
+  sticking.B = constants[1];
+  sticking.C = constants[2];
+  if (!(sticking.B > 0)) throw deck.error(key, "expected B above zero");
+  return sticking;
+}
+
+// Where the gas is as given, whatever particles take.
+bool isGasGiven(const Deck& deck) {
+  return deck.choice("problem") == "prescribed_gas" && deck.choice("gas.exchange") == "one_way";
+}
+
+}  // namespace
+
+void addMoleculeKeys(DeckSchema& schema) {
+  schema.section(section, Presence::defaulted,
+                 "Particles of molecules that grow site by site (docs/theory/molecules_in_particles.md). Their matter "
+                 "is the one species of particles.pah.",
+                 {ofMolecules()});
+  schema
+      .add(
+          stringKey(section + ".molecule", "The molecule of particles.pah by its name: " + names(moleculeNames()) + ".")
+              .byDefault("pyrene"))
+      .add(numberKey(section + ".growth_factor",
+                     "Factor of all rates of molecules in a primary with growth_factor_from of them or more, from 0 to "
+                     "1: a number that is fitted to measurements, not derived; 1 takes them as free.")
+               .byDefault("1")
+               .atLeast(0)
+               .atMost(1))
+      .add(integerKey(section + ".growth_factor_from", "Molecules of a primary from which on its growth factor holds.")
+               .byDefault("2")
+               .atLeast(1))
+      .add(choiceKey(section + ".shape", {"primaries", "spheres"},
+                     "What becomes of particles that stick. primaries: they touch at one of each, which share surface, "
+                     "sinter by particles.sintering, and become one; spheres: all molecules are in one primary.")
+               .byDefault("primaries"))
+      .add(
+          stringKey(section + ".processes",
+                    "Processes of molecules that take place; absent: all. Their names are those of docs/theory/pah.md.")
+              .list()
+              .optional())
+      .add(
+          quantityKey(section + ".at_start", units::perVolume, "Particles of one molecule that are there at the start.")
+              .byDefault("0 1/m^3")
+              .atLeast(0));
+  addCollisions(schema);
+  addPahRateKeys(schema, section + ".rates");
+}
+
+MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism) {
+  for (const char* key : meaningless)
+    if (deck.isGiven(key)) throw deck.error(key, "has no meaning with 'description: molecules'; leave it out");
+  MoleculeOptions o;
+  const std::vector<std::string> pah = deck.strings("particles.pah");
+  if (pah.size() != 1)
+    throw deck.error("particles.pah", fmt::format("molecules are of one species, not of {}", pah.size()));
+  o.precursor = pah[0];
+  deck.at("particles.pah", [&] { return mechanism.speciesIndex(o.precursor); });
+  o.rings = deck.at(section + ".molecule", [&] { return namedMolecule(deck.string(section + ".molecule")); });
+  using Inception = MoleculeOptions::Inception;
+  const std::string inception = section + ".inception";
+  o.inception = deck.choice(inception) == "pairs" ? Inception::pairs : Inception::asInGas;
+  if (o.inception == Inception::asInGas && !isGasGiven(deck))
+    throw deck.error(inception,
+                     "as_in_gas needs a gas that stays as it is given, 'problem: prescribed_gas' with 'exchange: "
+                     "one_way'; where particles take from the gas, use 'pairs'");
+  if (!deck.boolean("particles.inception")) o.inception = Inception::none;
+  o.inceptionEfficiency = deck.number(section + ".inception_efficiency");
+  o.condensationEfficiency =
+      deck.boolean("particles.condensation") ? deck.number(section + ".condensation_efficiency") : 0;
+  o.sticking = readSticking(deck);
+  o.growthFactor = deck.number(section + ".growth_factor");
+  o.growthFactorFrom = deck.integer<std::size_t>(section + ".growth_factor_from");
+  o.spheres = deck.choice(section + ".shape") == "spheres";
+  o.rates = readPahRates(deck, section + ".rates");
+  o.active = readPahProcesses(deck, section + ".processes");
+  for (std::size_t p = 0; p < pahProcessCount; ++p) {
+    const bool isOxidation = pahProcesses[p].name[0] == 'O';
+    o.active[p] = o.active[p] && deck.boolean(isOxidation ? "particles.oxidation" : "particles.growth");
+  }
+  o.atStart = deck.quantity(section + ".at_start");
+  o.density = deck.optionalQuantity("particles.density").value_or(o.density);
+  o.fractalDimension = deck.optionalNumber("particles.fractal_dimension").value_or(o.fractalDimension);
+  o.sintering = readSintering(deck, o.sintering);
+  o.sinteringTolerance = deck.number("particles.sintering.tolerance");
+  o.coagulation = deck.boolean("particles.coagulation");
+  o.kernel = readCollisions(deck);
+  o.particles = readSampleNumber(deck, particleSection, 10000);  // some molecules each
+  o.splitTolerance = deck.number("particles.split_tolerance");
+  return o;
+}
+
+}  // namespace lampblack::app

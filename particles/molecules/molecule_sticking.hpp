@@ -1,0 +1,51 @@
+// Which molecules stick when they meet: none below a number of rings, as the program MOpS has it, or a probability that
+// rises with the smaller one's mass. docs/theory/pah.md.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "core/constants.hpp"
+#include "core/modules.hpp"
+
+namespace lampblack::particles {
+
+// m, of collision (Frenklach and Wang 1994, eq. 10.19).
+[[nodiscard]] inline double moleculeDiameter(double carbon) {
+  return 1.395e-10 * std::sqrt(2 * carbon);
+}
+
+struct MoleculeSticking {
+  // What has to have `rings` rings: the smaller one, the larger one, both together, or the product over the sum.
+  enum class Rule { always, smaller, larger, together, reduced, bySize };
+  Rule rule = Rule::always;
+  double rings = 0;
+  // bySize: 1/(1 + exp(-A (d^3/m + (m/B)^6 - C))), d in Angstrom, m = 12 times the carbon atoms.
+  double A = 0, B = 0, C = 0;
+
+  struct Partner {
+    double rings = 0, carbon = 0;  // of a particle those of its largest molecule
+  };
+  [[nodiscard]] double probability(const Partner& p, const Partner& q) const {
+    const double least = std::min(p.rings, q.rings), most = std::max(p.rings, q.rings);
+    switch (rule) {
+      case Rule::always:
+        return 1;
+      case Rule::smaller:
+        return least >= rings ? 1 : 0;
+      case Rule::larger:
+        return most >= rings ? 1 : 0;
+      case Rule::together:
+        return least + most >= rings ? 1 : 0;
+      case Rule::reduced:
+        return least * most >= rings * (least + most) ? 1 : 0;
+      case Rule::bySize:
+        break;
+    }
+    const double carbon = std::min(p.carbon, q.carbon), m = 12 * carbon, d = 1e10 * moleculeDiameter(carbon);
+    return 1 / (1 + std::exp(-A * (d * d * d / m + std::pow(m / B, 6) - C)));
+  }
+};
+
+}  // namespace lampblack::particles
