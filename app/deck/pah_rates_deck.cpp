@@ -105,6 +105,12 @@ PahRateConstants readPahRates(const Deck& deck, const std::string& section) {
   return constants;
 }
 
+std::vector<std::string> pahProcessNames() {
+  std::vector<std::string> names;
+  for (const PahProcessRow& process : pahProcesses) names.emplace_back(process.name);
+  return names;
+}
+
 std::array<bool, pahProcessCount> readPahProcesses(const Deck& deck, const std::string& key) {
   std::array<bool, pahProcessCount> active{};
   if (!deck.has(key)) {

@@ -55,7 +55,7 @@ PopulationRequest ofTrees(const MechanismOfDeck& mechanism, const TreeOptions& o
 PopulationRequest readTreePopulation(const Deck& deck, const MechanismOfDeck& mechanism) {
   const TreeRequest trees = readTrees(deck, *mechanism);
   PopulationRequest request = ofTrees(mechanism, trees.options, trees.start);
-  addRun(trees.run, request);
+  addRun(trees, request);
   return request;
 }
 

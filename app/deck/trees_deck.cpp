@@ -289,7 +289,7 @@ TreeRequest readTrees(const Deck& deck, const Mechanism& mechanism) {
   options.fullAt = deck.quantity("particles.expected_number");
   options.seed = deck.integer<std::uint64_t>("particles.seed");
   request.start = readTreeStart(deck, options);
-  request.run = readPopulationRun(deck, options.material.soot() != nullptr, options.particles);
+  static_cast<PopulationRun&>(request) = readPopulationRun(deck, options.material.soot() != nullptr, options.particles);
   return request;
 }
 

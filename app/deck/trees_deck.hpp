@@ -24,10 +24,9 @@ struct PopulationRun {
   std::vector<double> classesByDiameter, classesByPrimaries;
 };
 
-struct TreeRequest {
+struct TreeRequest : PopulationRun {
   TreeOptions options;
   std::vector<TreeStart> start;  // what is there from the beginning
-  PopulationRun run;
 };
 
 // The keys of trees that all problems have: material, collisions, sintering.

@@ -43,6 +43,9 @@ class Molecule {
   // changed, where another ring is in the way.
   bool apply(PahProcess process, SiteNumber site, RandomStream& random);
 
+  // Whether nothing is in the way of a process that starts from a site of this group.
+  [[nodiscard]] bool hasRoom(SiteGroup group, SiteNumber site) const;
+
   // The sites in their order around the molecule, from any of them on.
   [[nodiscard]] SiteNumber firstSite() const { return someSite_; }
   [[nodiscard]] SiteNumber next(SiteNumber site) const { return sites_[site].next; }
@@ -83,6 +86,8 @@ class Molecule {
   }
   // Whether nothing but its own run of rings, and a ring of five in a direction that moves away, is around it.
   [[nodiscard]] bool isFree(const Site& site, unsigned fiveRingsThatMove = 0) const;
+  [[nodiscard]] bool isFreeBesideFive(const Site& site) const;  // but for the ring of five that moves there
+  [[nodiscard]] bool isInner(std::int32_t ring) const;          // three rings around it
   [[nodiscard]] LatticeCell coordinates(std::int32_t cell) const;
   void setSide(std::int32_t side);
   // Room for a ring at a site.

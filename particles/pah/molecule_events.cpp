@@ -37,6 +37,36 @@ bool Molecule::apply(PahProcess process, SiteNumber site, RandomStream& random) 
   return false;
 }
 
+bool Molecule::hasRoom(SiteGroup group, SiteNumber number) const {
+  const Site& site = sites_[number];
+  switch (group) {
+    case SiteGroup::FE:
+    case SiteGroup::ZZ:
+    case SiteGroup::AC:
+    case SiteGroup::BY6:
+    case SiteGroup::AC_FE3:
+      return isFree(site);
+    case SiteGroup::RFE:
+    case SiteGroup::RZZ:
+    case SiteGroup::RAC:
+      return isFreeBesideFive(site);
+    case SiteGroup::FE_HACA:
+      return isInner(neighbour(site.cell, site.first));
+    default:
+      return true;
+  }
+}
+
+bool Molecule::isInner(std::int32_t ring) const {
+  return std::popcount(lattice_[static_cast<std::size_t>(ring)] & 0x3fU) == 3;
+}
+
+bool Molecule::isFreeBesideFive(const Site& site) const {
+  const bool isBehind = sites_[site.next].bridged;
+  const unsigned direction = isBehind ? static_cast<unsigned>(site.first) + site.rings : site.first + 5U;
+  return isFree(site, 1U << direction % 6);
+}
+
 bool Molecule::addRing(SiteNumber site) {
   if (!isFree(sites_[site])) return false;
   makeRoom(site);
@@ -95,7 +125,7 @@ void Molecule::removeOuterRing(SiteNumber number) {
 bool Molecule::removeInnerRing(SiteNumber number) {
   Site& site = sites_[number];
   const std::int32_t ring = neighbour(site.cell, site.first);
-  if (std::popcount(lattice_[static_cast<std::size_t>(ring)] & 0x3fU) != 3) return false;
+  if (!isInner(ring)) return false;
   toggleRing(ring);
   --sixRings_;
   --sites_[site.previous].rings;
@@ -121,8 +151,7 @@ bool Molecule::placeFiveRing(SiteNumber site) {
 bool Molecule::moveFiveRing(SiteNumber number, bool ringGrows) {
   const Site& site = sites_[number];
   const bool isBehind = sites_[site.next].bridged;
-  const unsigned direction = isBehind ? static_cast<unsigned>(site.first) + site.rings : site.first + 5U;
-  if (!isFree(site, 1U << direction % 6)) return false;
+  if (!isFreeBesideFive(site)) return false;
   makeRoom(number);
   const SiteNumber five = isBehind ? site.next : site.previous;
   toggleFiveRing(five);

@@ -48,8 +48,7 @@ SitesBeside sitesBeside(const Molecule& m, SiteGroup group, Molecule::SiteNumber
     case SiteGroup::RAC:
       return {{m.type(next) == SiteType::R5 ? previous : next}, 1};
     case SiteGroup::AC_FE3:  // behind the three free edges
-      return {{m.isMiddle(m.next(next)) ? m.next(m.next(m.next(next)))
-                                        : m.previous(m.previous(m.previous(previous)))},
+      return {{m.isMiddle(m.next(next)) ? m.next(m.next(m.next(next))) : m.previous(m.previous(m.previous(previous)))},
               1};
     default:
       return {};
@@ -73,9 +72,11 @@ void SiteClosure::add(const Molecule& molecule) {
   }
   for (std::size_t g = 0; g < siteGroups; ++g) {
     const auto group = static_cast<SiteGroup>(g);
-    seen.groups[g] += molecule.count(group);
     for (std::size_t i = 0; i < molecule.count(group); ++i) {
-      const SitesBeside beside = sitesBeside(molecule, group, molecule.member(group, i));
+      const auto site = molecule.member(group, i);
+      if (!molecule.hasRoom(group, site)) continue;
+      ++seen.groups[g];
+      const SitesBeside beside = sitesBeside(molecule, group, site);
       for (std::size_t k = 0; k < beside.count; ++k)
         ++seen.beside[g][static_cast<std::size_t>(countedType(molecule.type(beside.site[k])))];
     }
@@ -123,6 +124,28 @@ bool SiteClosure::drawNeighbour(std::size_t sizeClass, SiteGroup group, const Si
   return true;
 }
 
+template <class F>
+void SiteClosure::forEachNumber(auto& seen, F f) {
+  f(seen.molecules);
+  for (auto& n : seen.sites) f(n);
+  for (auto& n : seen.groups) f(n);
+  for (auto& group : seen.beside)
+    for (auto& n : group) f(n);
+}
+
+std::vector<std::uint64_t> SiteClosure::numbers() const {
+  std::vector<std::uint64_t> all;
+  for (const Seen& seen : seen_) forEachNumber(seen, [&](std::uint64_t n) { all.push_back(n); });
+  return all;
+}
+
+void SiteClosure::setNumbers(const std::vector<std::uint64_t>& numbers) {
+  if (numbers.size() != this->numbers().size())
+    throw InputError("site counting: a table of neighbours of another size");
+  std::size_t i = 0;
+  for (Seen& seen : seen_) forEachNumber(seen, [&](std::uint64_t& n) { n = numbers[i++]; });
+}
+
 std::string SiteClosure::write(const std::string& conditions) const {
   std::ostringstream out;
   out << "# Sites of molecules of the lattice and what is beside them, for site counting. " << conditions << "\n";
@@ -135,11 +158,8 @@ std::string SiteClosure::write(const std::string& conditions) const {
   for (std::size_t k = 0; k < seen_.size(); ++k) {
     const Seen& seen = seen_[k];
     if (seen.molecules == 0) continue;
-    out << k << "," << seen.molecules;
-    for (const std::uint64_t n : seen.sites) out << "," << n;
-    for (const std::uint64_t n : seen.groups) out << "," << n;
-    for (const auto& group : seen.beside)
-      for (const std::uint64_t n : group) out << "," << n;
+    out << k;
+    forEachNumber(seen, [&](std::uint64_t n) { out << "," << n; });
     out << "\n";
   }
   return out.str();
@@ -169,12 +189,7 @@ SiteClosure SiteClosure::read(const std::string& text) {
     const std::uint64_t k = next();
     if (k >= closure.seen_.size())
       throw InputError("site counting: line " + std::to_string(number) + " of the table of neighbours has no class");
-    Seen& seen = closure.seen_[k];
-    seen.molecules = next();
-    for (std::uint64_t& n : seen.sites) n = next();
-    for (std::uint64_t& n : seen.groups) n = next();
-    for (auto& group : seen.beside)
-      for (std::uint64_t& n : group) n = next();
+    forEachNumber(closure.seen_[k], [&](std::uint64_t& n) { n = next(); });
   }
   closure.prepare();
   return closure;

@@ -1,6 +1,6 @@
 // What site counting does not know of a molecule, in the mean over molecules of the lattice of about its size: how many
-// of its sites are what processes start from, and what is beside these. Whole numbers seen in runs of the lattice, so
-// that tables of several runs add up. docs/theory/site_counting.md.
+// of its sites are what processes start from and have room for them, and what is beside these. Whole numbers seen in
+// runs of the lattice, so that tables of several runs add up. docs/theory/site_counting.md.
 #pragma once
 
 #include <array>
@@ -41,8 +41,10 @@ class SiteClosure {
 
   SiteClosure() : seen_(carbonClasses * compactness) {}
   void add(const Molecule& molecule);
-  [[nodiscard]] std::vector<Seen>& seen() { return seen_; }
   [[nodiscard]] const std::vector<Seen>& seen() const { return seen_; }
+  // All of them in a row, to be added up, sent and saved. InputError for another number of them.
+  [[nodiscard]] std::vector<std::uint64_t> numbers() const;
+  void setNumbers(const std::vector<std::uint64_t>& numbers);
 
   // Makes it ready to be asked: classes without molecules are as the nearest with some. InputError without any.
   void prepare();
@@ -61,6 +63,9 @@ class SiteClosure {
     std::array<double, siteGroups> share{};  // of the sites that a group is made of
     std::array<std::array<double, countedSites>, siteGroups> beside{};
   };
+  template <class F>
+  static void forEachNumber(auto& seen, F f);
+
   std::vector<Seen> seen_;
   std::vector<Law> laws_;
 };

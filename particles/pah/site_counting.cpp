@@ -18,6 +18,7 @@ bool SiteCounting::happen(PahProcess process, std::size_t sizeClass) {
 }
 
 double SiteCounting::advance(const PahRates& rates, double duration, std::uint64_t mostEvents) {
+  if (hasLeft()) return 0;
   double left = duration;
   std::array<double, pahProcessCount> upTo{};  // sums of the rates of the processes so far
   for (std::uint64_t event = 0; event < mostEvents; ++event) {
@@ -36,6 +37,7 @@ double SiteCounting::advance(const PahRates& rates, double duration, std::uint64
     const bool happened = happen(static_cast<PahProcess>(p), sizeClass);
     ++(happened ? events_.happened : events_.voids)[p];
     counts_.requireConsistent();
+    if (hasLeft()) return 0;
   }
   return left;
 }

@@ -17,16 +17,18 @@ namespace lampblack::particles {
 class SiteCounting {
  public:
   // Keeps a reference to the closure, which is prepared.
-  SiteCounting(const SiteCounts& start, const SiteClosure& closure, RandomStream random)
-      : counts_(start), closure_(closure), random_(random) {}
+  SiteCounting(const SiteCounts& start, const SiteClosure& closure, RandomStream random,
+               std::size_t mostRings = MoleculeGrowth::noLimit)
+      : counts_(start), closure_(closure), random_(random), mostRings_(mostRings) {}
 
   // As MoleculeGrowth::advance().
   double advance(const PahRates& rates, double duration, std::uint64_t mostEvents);
 
   [[nodiscard]] const SiteCounts& counts() const { return counts_; }
+  [[nodiscard]] bool hasLeft() const { return static_cast<std::size_t>(counts_.rings()) > mostRings_; }
   // By process: what happened, and what was refused.
   [[nodiscard]] const MoleculeEvents::Counts& events() const { return events_.happened; }
-  [[nodiscard]] const MoleculeEvents::Counts& refused() const { return events_.voids; }
+  [[nodiscard]] const MoleculeEvents::Counts& voids() const { return events_.voids; }
 
  private:
   bool happen(PahProcess process, std::size_t sizeClass);
@@ -34,6 +36,7 @@ class SiteCounting {
   SiteCounts counts_;
   const SiteClosure& closure_;
   RandomStream random_;
+  std::size_t mostRings_;
   MoleculeEvents events_;
 };
 

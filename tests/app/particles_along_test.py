@@ -16,6 +16,7 @@ h5py, np = running.package("h5py"), running.package("numpy")
 CASE = running.SOURCE / "cases/particles_along/premixed_ethylene_abf"
 SILICA = running.SOURCE / "cases/particles_along/silica_teos"
 MECHANISM = running.SOURCE / "cases/mechanisms/ethylene_abf2000_101.yaml"
+MOLECULES = running.SOURCE / "cases/particles_along/premixed_ethylene_molecules"
 SHORT = ("particles.number=256", "particles.repeats=3", "gas.end=8 ms", "output.interval=2 ms", "output.times=[5 ms]",
          "particles.split_tolerance=0.05", "particles.smallest=0.5 nm")
 GAS = ("time [s],temperature [K],pressure [Pa],X_AR,X_A4,X_H\n0,1700,1e5,0.999,1e-6,1e-4\n0.01,1700,1e5,0.999,1e-6,1e-4\n")
@@ -106,7 +107,10 @@ def check_rank_independence(programs: tuple, folder: pathlib.Path) -> None:
     trees = ("particles.number=32", "particles.repeats=3", "particles.tables_at=[]", "gas.end=20 ms")
     spheres = ("particles.number=64", *SHORT[1:])
     decks = {"spheres": (CASE / "deck.yaml", spheres), "depleting": (CASE / "deck.yaml", (
-        *spheres, "gas.exchange=two_way", "particles.coupling_change=0.3")), "silica": (SILICA / "deck.yaml", trees)}
+        *spheres, "gas.exchange=two_way", "particles.coupling_change=0.3")), "silica": (SILICA / "deck.yaml", trees),
+        "molecules": (MOLECULES / "deck.yaml", ("particles.number=64", "particles.repeats=3", "gas.end=2.6 ms", "particles.coagulation=true")),
+        "pairs": (MOLECULES / "deck.yaml", ("particles.number=64", "particles.repeats=3", "gas.end=2.6 ms", "particles.coagulation=true",
+                                            "particles.molecules.inception=pairs", "gas.exchange=two_way"))}
     for name, text in (("sectional", MODEL.format(mechanism=MECHANISM, model="sectional")), ("flame", ALONG_FLAME),
                        ("trees", TREES_ALONG_FLAME + "gas: {flame: flame/results.h5, exchange: two_way}\n")):
         (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
@@ -241,6 +245,15 @@ def check_refusals(program, folder: pathlib.Path) -> list:
     deck.write_text(MODEL.format(mechanism=MECHANISM, model="hmom").replace("pah: [A4]", "pah: [A4], inception_by: monomers"),
                     encoding="utf-8")
     refused(program("run", deck, "--out", folder / "never"), ("particles.inception_by", "does not have this"), "hmom of monomers")
+    for setting, words in (("particles.pah=[A2]", "molecules"), ("particles.pah=[A2, A4]", "one species"),
+                           ("gas.exchange=two_way", "as_in_gas"), ("particles.alpha=1", "leave it out"),
+                           ("particles.molecules.molecule=buckminsterfullerene", "particles.molecules.molecule"),
+                           ("particles.molecules.sticks=by_size", "sticking_constants"),
+                           ("particles.molecules.processes=[G7R]", "particles.molecules.processes"),
+                           ("particles.molecules.growth_factor=1.5", "particles.molecules.growth_factor"),
+                           ("particles.material=silica", "molecules are of soot"))[::every]:
+        result = program("run", MOLECULES / "deck.yaml", "--out", folder / "never", *running.settings(setting))
+        refused(result, ("particles", words), setting)
     if (folder / "never").exists():
         problems.append("a refused run left a folder")
     return problems

@@ -22,15 +22,9 @@ void addTo(std::uint64_t& sum, std::uint64_t value) {
   if (__builtin_add_overflow(sum, value, &sum)) refuseSums();
 }
 
-template <class Visit>
-void visitValues(const MoleculeGrowth& growth, const Visit& visit) {
-  const Molecule& molecule = growth.molecule();
-  for (const std::size_t value : {molecule.carbon(), molecule.hydrogen(), molecule.sixRings(), molecule.fiveRings()})
-    visit(value);
-  for (std::size_t t = 0; t < siteTypes; ++t) visit(molecule.count(static_cast<SiteType>(t)));
-  for (const SiteGroup group : nearGroups) visit(molecule.count(group));
-  for (const std::uint64_t count : growth.events()) visit(count);
-  for (const std::uint64_t count : growth.voids()) visit(count);
+void addEventsOf(const auto& growth, GrowthValues& values) {
+  for (const auto* counts : {&growth.events(), &growth.voids()})
+    values.insert(values.end(), counts->begin(), counts->end());
 }
 
 // Numbers of 64 bits as two of 32, which doubles hold.
@@ -83,6 +77,26 @@ const std::vector<Quantity>& growthQuantities() {
   return quantities;
 }
 
+GrowthValues valuesOf(const MoleculeGrowth& growth) {
+  const Molecule& molecule = growth.molecule();
+  GrowthValues values{molecule.carbon(), molecule.hydrogen(), molecule.sixRings(), molecule.fiveRings()};
+  for (std::size_t t = 0; t < siteTypes; ++t) values.push_back(molecule.count(static_cast<SiteType>(t)));
+  for (const SiteGroup group : nearGroups) values.push_back(molecule.count(group));
+  addEventsOf(growth, values);
+  return values;
+}
+
+GrowthValues valuesOf(const SiteCounting& growth) {
+  const SiteCounts& counts = growth.counts();
+  const auto whole = [](int n) { return static_cast<std::uint64_t>(n); };
+  const int five = counts.count(SiteType::R5);
+  GrowthValues values{whole(counts.carbon()), whole(counts.hydrogen()), whole(counts.rings() - five), whole(five)};
+  for (const int n : counts.sites()) values.push_back(whole(n));
+  values.resize(values.size() + siteTypes - countedSites + std::size(nearGroups), 0);
+  addEventsOf(growth, values);
+  return values;
+}
+
 GrowthSums::GrowthSums(std::size_t rows)
     : count_(rows), sum_(rows * growthQuantities().size()), squares_(sum_.size()) {}
 
@@ -90,20 +104,20 @@ std::size_t GrowthSums::place(std::size_t row, std::size_t quantity) const {
   return row * (sum_.size() / count_.size()) + quantity;
 }
 
-void GrowthSums::add(std::size_t row, const MoleculeGrowth& growth) {
+void GrowthSums::add(std::size_t row, const GrowthValues& values) {
   ++count_[row];
   std::size_t at = place(row, 0);
-  visitValues(growth, [&](std::uint64_t value) {
+  for (const std::uint64_t value : values) {
     std::uint64_t square = 0;
     if (__builtin_mul_overflow(value, value, &square)) refuseSums();
     addTo(sum_[at], value);
     addTo(squares_[at], square);
     ++at;
-  });
+  }
 }
 
-void GrowthSums::addFormula(std::size_t row, const MoleculeGrowth& growth) {
-  ++formulas_[{row, growth.molecule().carbon(), growth.molecule().hydrogen()}];
+void GrowthSums::addFormula(std::size_t row, const GrowthValues& values) {
+  ++formulas_[{row, values[0], values[1]}];
 }
 
 void GrowthSums::add(const GrowthSums& other) {
@@ -111,6 +125,10 @@ void GrowthSums::add(const GrowthSums& other) {
     for (std::size_t i = 0; i < (this->*part).size(); ++i) addTo((this->*part)[i], (other.*part)[i]);
   addTo(events_, other.events_);
   for (const auto& [formula, count] : other.formulas_) formulas_[formula] += count;
+  std::vector<std::uint64_t> numbers = closure_.numbers();
+  const std::vector<std::uint64_t> others = other.closure_.numbers();
+  for (std::size_t i = 0; i < numbers.size(); ++i) addTo(numbers[i], others[i]);
+  closure_.setNumbers(numbers);
 }
 
 GrowthSums GrowthSums::ofAllRanks(MPI_Comm comm) const {
@@ -132,6 +150,10 @@ GrowthSums GrowthSums::ofAllRanks(MPI_Comm comm) const {
     if (largest > 1.8e19) refuseSums();
   });
   MPI_Reduce(rank == 0 ? MPI_IN_PLACE : &all.events_, &all.events_, 1, MPI_UINT64_T, MPI_SUM, 0, comm);
+  std::vector<std::uint64_t> beside = closure_.numbers();
+  MPI_Reduce(rank == 0 ? MPI_IN_PLACE : beside.data(), beside.data(), static_cast<int>(beside.size()), MPI_UINT64_T,
+             MPI_SUM, 0, comm);
+  all.closure_.setNumbers(beside);
 
   const std::vector<std::uint64_t> own = flat(formulas_);
   const auto size = static_cast<int>(own.size());
@@ -159,12 +181,15 @@ void GrowthSums::saveOrLoad(StateArchive& archive, int rank) {
   archived(archive, "squares", squares_);
   archived(archive, "events", events);
   archived(archive, "formulas", numbers);
+  std::vector<std::uint64_t> beside = closure_.numbers();
+  archived(archive, "neighbours", beside);
   if (!archive.loading()) return;
   if (count_.size() != rows || sum_.size() != size || squares_.size() != size || events.size() != 1)
     throw InputError("the checkpoint has other rows or quantities than this run");
   formulas_.clear();
   events_ = events[0];
   addFlat(numbers, formulas_);
+  closure_.setNumbers(beside);
   if (rank != 0) *this = GrowthSums(rows);
 }
 

@@ -13,11 +13,16 @@
 #include "core/quantity.hpp"
 #include "core/state_archive.hpp"
 #include "particles/pah/molecule_growth.hpp"
+#include "particles/pah/site_counting.hpp"
 
 namespace lampblack::app {
 
 // What a row has of a molecule, in this order.
 [[nodiscard]] const std::vector<Quantity>& growthQuantities();
+// Of site counting what is beside a site is not known: all sites are of types without R5 beside them.
+using GrowthValues = std::vector<std::uint64_t>;
+[[nodiscard]] GrowthValues valuesOf(const MoleculeGrowth& growth);
+[[nodiscard]] GrowthValues valuesOf(const SiteCounting& growth);
 
 // A formula at a row.
 struct RowFormula {
@@ -30,9 +35,11 @@ class GrowthSums {
   explicit GrowthSums(std::size_t rows);
 
   // A molecule at a row, which has not left. NumericsError where sums outgrow integers.
-  void add(std::size_t row, const MoleculeGrowth& growth);
+  void add(std::size_t row, const GrowthValues& values);
   // Its formula, where the row has a spectrum.
-  void addFormula(std::size_t row, const MoleculeGrowth& growth);
+  void addFormula(std::size_t row, const GrowthValues& values);
+  // What is beside its sites, for a closure of site counting.
+  void addNeighbours(const Molecule& molecule) { closure_.add(molecule); }
   void addEvents(std::uint64_t events) { events_ += events; }
   void add(const GrowthSums& other);
   // Collective. The sums of all ranks on rank 0, those of this rank alone on the others. NumericsError, as add().
@@ -45,6 +52,7 @@ class GrowthSums {
   [[nodiscard]] double mean(std::size_t row, std::size_t quantity) const;
   [[nodiscard]] double standardError(std::size_t row, std::size_t quantity) const;
   [[nodiscard]] const std::map<RowFormula, std::uint64_t>& formulas() const { return formulas_; }
+  [[nodiscard]] const SiteClosure& closure() const { return closure_; }
   [[nodiscard]] std::uint64_t events() const { return events_; }  // of all molecules, void ones too
 
  private:
@@ -53,6 +61,7 @@ class GrowthSums {
   std::vector<std::uint64_t> count_, sum_, squares_;
   std::uint64_t events_ = 0;
   std::map<RowFormula, std::uint64_t> formulas_;
+  SiteClosure closure_;
 };
 
 }  // namespace lampblack::app

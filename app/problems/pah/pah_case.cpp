@@ -12,6 +12,7 @@
 #include "chemistry/mechanism/known_species.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/text_file.hpp"
 #include "coupling/given_gas.hpp"
 #include "particles/pah/molecule_growth.hpp"
 #include "particles/pah/named_molecules.hpp"
@@ -167,6 +168,15 @@ DeckSchema pahSchema() {
               .atMost(1));
   addGivenGasKeys(schema);
   schema
+      .add(choiceKey("description", {"lattice", "sites"},
+                     "What is known of a molecule. lattice: where its rings are; sites: how many sites of each type it "
+                     "has, what is beside them by a table of runs on the lattice (docs/theory/site_counting.md).")
+               .byDefault("lattice"))
+      .add(stringKey("closure",
+                     "File of the table of neighbours that 'output.closure' of a run on the lattice has written, "
+                     "relative to the deck. It belongs to gases like that run's.")
+               .optional()
+               .onlyWith("description", {"sites"}))
       .add(choiceKey("processes", processes,
                      "Processes that take place; absent: all. Their names are those of docs/theory/pah.md.")
                .list()
@@ -195,6 +205,11 @@ DeckSchema pahSchema() {
                .byDefault("12")
                .atLeast(0)
                .atMost(10000))
+      .add(booleanKey("output.closure",
+                      "Write closure.csv, the sites of all molecules at all rows and what is beside them, for "
+                      "'description: sites'.")
+               .byDefault("false")
+               .onlyWith("description", {"lattice"}))
       .add(quantityKey("checkpoint.wall_time", units::time, "Wall time between two checkpoints.")
                .byDefault("30 min")
                .above(0))
@@ -221,7 +236,17 @@ PahCase readPahCase(const Deck& deck) {
   });
   pah.repeats = deck.integer<std::uint64_t>("repeats");
   pah.seed = deck.integer<std::uint64_t>("seed");
-  pah.drawn = std::min(deck.integer<std::size_t>("output.molecules"), static_cast<std::size_t>(pah.repeats));
+  if (deck.choice("description") == "sites") {
+    if (!deck.has("closure")) throw deck.error("description", "sites need the key 'closure', a table of neighbours");
+    pah.closure = deck.at("closure", [&] {
+      return std::make_shared<const SiteClosure>(
+          SiteClosure::read(readTextFile(deck.resolvePath(deck.string("closure")), "a table of neighbours")));
+    });
+  } else {
+    pah.writesClosure = deck.boolean("output.closure");
+  }
+  pah.drawn =
+      pah.closure ? 0 : std::min(deck.integer<std::size_t>("output.molecules"), static_cast<std::size_t>(pah.repeats));
   pah.checkpointInterval = deck.quantity("checkpoint.wall_time");
   pah.checkpointAtEnd = deck.boolean("checkpoint.at_end");
   return pah;

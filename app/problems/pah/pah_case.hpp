@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "particles/gas/gas_path.hpp"
 #include "particles/pah/growth_path.hpp"
 #include "particles/pah/molecule.hpp"
+#include "particles/pah/site_closure.hpp"
 
 namespace lampblack::app {
 
@@ -23,6 +25,8 @@ struct PahCase {
   GrowthPath growth;
   PahRateConstants constants;
   std::uint64_t repeats = 0, seed = 0;
+  std::shared_ptr<const SiteClosure> closure = {};  // where sites are counted
+  bool writesClosure = false;
   std::size_t drawn = 0;          // molecules whose cells are written
   double checkpointInterval = 0;  // of wall time, s
   bool checkpointAtEnd = false;

@@ -27,8 +27,8 @@ constexpr double leastRound = 0.5, longestRound = 2;              // s of molecu
 constexpr std::uint32_t growthPurpose = 0x706168;
 
 // Calls row(i, growth) at each row. False where the run is to stop before the end.
-template <class Row>
-bool growMolecule(const PahCase& pah, MoleculeGrowth& growth, const Row& row, bool mayStop = true) {
+template <class Growth, class Row>
+bool growMolecule(const PahCase& pah, Growth& growth, const Row& row, bool mayStop = true) {
   std::size_t next = 0;
   for (std::size_t i = 0; i <= pah.growth.intervals.size(); ++i) {
     for (; next < pah.growth.records.size() && pah.growth.records[next] == i; ++next) row(next, growth);
@@ -44,7 +44,7 @@ MoleculeGrowth newMolecule(const PahCase& pah, const Molecule& start, std::uint6
   return {start, RandomStream(pah.seed, repeat, growthPurpose), pah.mostRings};
 }
 
-std::uint64_t sumOf(const MoleculeGrowth& growth) {
+std::uint64_t sumOf(const auto& growth) {
   std::uint64_t sum = 0;
   for (const auto* counts : {&growth.events(), &growth.voids()})
     for (const std::uint64_t count : *counts) sum += count;
@@ -163,18 +163,35 @@ class PreparedPah : public PreparedRun {
     for (std::uint64_t repeat = first; repeat < end; ++repeat) {
       if (repeat % ranks != rank) continue;
       if (stopRequest() != 0) return;
-      MoleculeGrowth growth = newMolecule(case_, start, repeat);
-      try {
-        const bool isWhole = growMolecule(case_, growth, [&](std::size_t row, const MoleculeGrowth& now) {
-          if (now.hasLeft()) return;
-          sums.add(row, now);
-          if (std::ranges::binary_search(case_.spectra, row)) sums.addFormula(row, now);
-        });
-        if (!isWhole) return;
-      } catch (const NumericsError& error) {
-        throw NumericsError(fmt::format("molecule {}: {}", repeat, error.what()));
+      bool isWhole = false;
+      if (case_.closure) {
+        SiteCounting growth(SiteCounts(start), *case_.closure, RandomStream(case_.seed, repeat, growthPurpose),
+                            case_.mostRings);
+        isWhole = growInto(growth, repeat, sums);
+      } else {
+        MoleculeGrowth growth = newMolecule(case_, start, repeat);
+        isWhole = growInto(growth, repeat, sums);
       }
-      sums.addEvents(sumOf(growth));
+      if (!isWhole) return;
+    }
+  }
+
+  // A molecule of either description. False where the run is to stop before its end.
+  template <class Growth>
+  bool growInto(Growth& growth, std::uint64_t repeat, GrowthSums& sums) const {
+    try {
+      const bool isWhole = growMolecule(case_, growth, [&](std::size_t row, const Growth& now) {
+        if (now.hasLeft()) return;
+        const GrowthValues values = valuesOf(now);
+        sums.add(row, values);
+        if (std::ranges::binary_search(case_.spectra, row)) sums.addFormula(row, values);
+        if constexpr (requires { now.molecule(); })
+          if (case_.writesClosure) sums.addNeighbours(now.molecule());
+      });
+      if (isWhole) sums.addEvents(sumOf(growth));
+      return isWhole;
+    } catch (const NumericsError& error) {
+      throw NumericsError(fmt::format("molecule {}: {}", repeat, error.what()));
     }
   }
 
@@ -191,6 +208,8 @@ class PreparedPah : public PreparedRun {
         drawn.push_back(growth.molecule());
       }
       if (rank_ == 0) writeFileAtomically(folder.file("spectrum.csv"), csvTable(spectrum.columns, spectrum.rows));
+      if (rank_ == 0 && case_.writesClosure)
+        writeFileAtomically(folder.file("closure.csv"), sums.closure().write(case_.title));
     });
     ResultsWriter results(comm_, folder.results(), info);
     HistoryWriter rows(comm_, folder.history(), history.columns);

@@ -16,7 +16,7 @@ using Inception = MoleculeOptions::Inception;
 
 // Of all particles: mean C, mean H.
 std::pair<Sample, Sample> meanAtoms(MoleculeOptions options, const MoleculeGas& gas, double until, int repeats,
-                                    std::size_t molecules = 1) {
+                                    std::size_t molecules = 1, std::uint32_t mostRings = 1000) {
   std::vector<double> carbon, hydrogen;
   for (int r = 0; r < repeats; ++r) {
     options.owner = static_cast<std::uint64_t>(r);
@@ -24,6 +24,7 @@ std::pair<Sample, Sample> meanAtoms(MoleculeOptions options, const MoleculeGas& 
     population.fill(std::vector(options.particles, population.ofGas(molecules)), 1e18);
     population.advance(gas.state, until);
     population.forEach([&](const MoleculeParticle& p, double) {
+      if (p.mostRings > mostRings) return;
       carbon.push_back(p.carbon());
       hydrogen.push_back(p.hydrogen());
     });
@@ -31,9 +32,10 @@ std::pair<Sample, Sample> meanAtoms(MoleculeOptions options, const MoleculeGas& 
   return {summarise(carbon), summarise(hydrogen)};
 }
 
-// The master equation of all eleven processes, 1500 K, 5e-6 s (tests 4 and 6 of the theory's sources).
+// The master equation of all eleven processes, 1500 K, 5e-6 s, over molecules of seven rings or fewer: those that have
+// had more and came back are too few to be seen.
 TEST(MoleculePopulation, OfSingleMoleculesIsTheSingleMoleculesChain) {
-  const auto [carbon, hydrogen] = meanAtoms(singlePyrene(), MoleculeGas(), 5e-6, fewOrMany(10, 40));
+  const auto [carbon, hydrogen] = meanAtoms(singlePyrene(), MoleculeGas(), 5e-6, fewOrMany(10, 40), 1, 7);
   EXPECT_LT(std::abs(carbon.z(18.329997)), zLimit) << carbon.mean;
   EXPECT_LT(std::abs(hydrogen.z(10.938212)), zLimit) << hydrogen.mean;
 }
@@ -206,6 +208,23 @@ TEST(MoleculePopulation, CollidesAsMoleculesStick) {
     population.advance(gas.state, 1e-4);
     EXPECT_EQ(population.counters().coagulations > 0, rings == 4);
   }
+}
+
+// A large one does not stick to a small one, whichever of the pair it is.
+TEST(MoleculePopulation, UnlikeMoleculesStickByBoth) {
+  MoleculeOptions o = inert(singlePyrene());
+  o.coagulation = true;
+  o.sticking = {.rule = MoleculeSticking::Rule::smaller, .rings = 7};
+  MoleculePopulation population(o);
+  const auto coronene = population.type().made({std::make_shared<const Molecule>(namedMolecule("coronene"))});
+  std::vector<MoleculeParticle> both(o.particles, population.ofGas(1));
+  for (std::size_t k = 0; k < 250; ++k) both[k] = coronene;
+  population.fill(both, 1e20);
+  population.advance(MoleculeGas().state, 1e-5);
+  EXPECT_GT(population.counters().coagulations, 20u);
+  population.forEach([&](const MoleculeParticle& p, double) {
+    if (p.molecules > 1) EXPECT_EQ(p.carbon(), 24.0 * p.molecules);
+  });
 }
 
 TEST(MoleculePopulation, SinteredPrimariesBecomeOne) {

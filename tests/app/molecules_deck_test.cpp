@@ -1,0 +1,114 @@
+#include "app/deck/molecules_deck.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "app/deck/particles_deck.hpp"
+#include "app/deck/population_deck.hpp"
+#include "app/problems/reactor/reactor_case.hpp"
+#include "particles/molecules/molecule_ensemble.hpp"
+#include "particles/pah/molecule.hpp"
+#include "tests/flow/flame/streams.hpp"
+#include "tests/messages.hpp"
+
+namespace lampblack::app {
+namespace {
+
+constexpr const char* mechanismOfMolecules = "ethylene_abf2000_101.yaml";
+
+Deck moleculesDeck(const std::string& particles) {
+  const std::string text =
+      "problem: reactor\nmechanism: m.yaml\nreactor: {type: constant_pressure}\ntime: {end: 1 s}\n"
+      "particles:\n  description: molecules\n  pah: [A4]\n" +
+      particles;
+  return Deck::parse(text, "deck.yaml", {}, reactorSchema());
+}
+
+TEST(MoleculesDeck, SaysAllOfTheOptions) {
+  const Deck deck = moleculesDeck(R"(
+  molecules:
+    inception_efficiency: 0.5
+    condensation_efficiency: 0.25
+    sticks: reduced
+    sticking_rings: 2.5
+    growth_factor: 0.05
+    growth_factor_from: 3
+    shape: spheres
+    processes: [G6R_AC, O6R_FE3]
+    at_start: 1e10 1/cm^3
+    rates: {ways_armchair: 1}
+  oxidation: false
+  density: 1.6 g/cm^3
+  fractal_dimension: 1.7
+  kernel: free_molecular
+  van_der_waals: 1.5
+  sintering: {mechanism: constant, prefactor: 1e-3}
+  number: 99
+  split_tolerance: 0.02
+  expected_number: 1e19 1/m^3
+  repeats: 3
+  seed: 7
+  classes: {primaries: [2, 5]}
+)");
+  const auto mechanism = std::make_shared<const Mechanism>(shippedMechanism(mechanismOfMolecules));
+  const MoleculeOptions o = readMoleculeOptions(deck, *mechanism);
+  EXPECT_EQ(o.precursor, "A4");
+  EXPECT_EQ(Molecule(o.rings).carbon(), 16U);
+  EXPECT_EQ(o.inception, MoleculeOptions::Inception::pairs);
+  EXPECT_EQ(o.inceptionEfficiency, 0.5);
+  EXPECT_EQ(o.condensationEfficiency, 0.25);
+  EXPECT_EQ(o.sticking.rule, MoleculeSticking::Rule::reduced);
+  EXPECT_EQ(o.sticking.rings, 2.5);
+  EXPECT_EQ(o.growthFactor, 0.05);
+  EXPECT_EQ(o.growthFactorFrom, 3U);
+  EXPECT_TRUE(o.spheres);
+  EXPECT_EQ(o.rates.waysArmchair, 1);
+  for (std::size_t p = 0; p < pahProcessCount; ++p)
+    EXPECT_EQ(o.active[p], static_cast<PahProcess>(p) == PahProcess::G6R_AC) << pahProcesses[p].name;
+  EXPECT_DOUBLE_EQ(o.atStart, 1e16);
+  EXPECT_NEAR(o.density, 1600, 1e-9);
+  EXPECT_EQ(o.fractalDimension, 1.7);
+  EXPECT_EQ(o.kernel.type, CollisionKernelType::freeMolecular);
+  EXPECT_EQ(o.kernel.enhancement, 1.5);
+  EXPECT_EQ(o.sintering.mechanism, SinteringMechanism::constant);
+  EXPECT_EQ(o.particles, 99U);
+  EXPECT_EQ(o.splitTolerance, 0.02);
+  const PopulationRequest request = readPopulation(deck, mechanism);
+  EXPECT_EQ(request.repeats, 3U);
+  EXPECT_TRUE(request.hasStart);
+  EXPECT_EQ(request.material, "soot");
+  EXPECT_THAT(request.elements, testing::ElementsAre("C", "H"));
+  ASSERT_EQ(request.classes.size(), 1U);
+  const auto population = request.make(5);
+  EXPECT_EQ(population->size(), 99U);
+  EXPECT_EQ(population->classedBy()[request.classes[0].by].name, "primaries");
+  EXPECT_EQ(ownerOf({population->pack()[packedOwnerAt], population->pack()[packedOwnerAt + 1]}), 5U);
+}
+
+TEST(MoleculesDeck, HasTheDefaultsOfThePage) {
+  const MoleculeOptions o = readMoleculeOptions(moleculesDeck(""), shippedMechanism(mechanismOfMolecules)), page;
+  EXPECT_EQ(o.growthFactor, page.growthFactor);
+  EXPECT_EQ(o.growthFactorFrom, page.growthFactorFrom);
+  EXPECT_EQ(o.density, page.density);
+  EXPECT_EQ(o.fractalDimension, page.fractalDimension);
+  EXPECT_EQ(o.spheres, page.spheres);
+  EXPECT_EQ(o.splitTolerance, page.splitTolerance);
+  EXPECT_EQ(o.active, page.active);
+  EXPECT_EQ(o.sticking.rule, page.sticking.rule);
+  EXPECT_FALSE(o.sintering.active());
+}
+
+TEST(MoleculesDeck, MistakesAreTold) {
+  const auto mechanism = std::make_shared<const Mechanism>(shippedMechanism(mechanismOfMolecules));
+  const auto message = [&](const std::string& particles) {
+    return test::messageOf<InputError>([&] { (void)readPopulation(moleculesDeck(particles), mechanism); });
+  };
+  EXPECT_THAT(message("  molecules: {inception: as_in_gas}\n"), testing::HasSubstr("prescribed_gas"));
+  EXPECT_THAT(message("  molecules: {molecule: coronene}\n"), testing::HasSubstr("the molecule it is taken for"));
+  EXPECT_THAT(message("  oh_efficiency: 0.1\n"), testing::HasSubstr("leave it out"));
+  EXPECT_THAT(message("  molecules: {sticks: by_size, sticking_constants: [1, 0, 1]}\n"),
+              testing::HasSubstr("B above zero"));
+}
+
+}  // namespace
+}  // namespace lampblack::app
