@@ -223,7 +223,9 @@ TEST(MoleculePopulation, UnlikeMoleculesStickByBoth) {
   population.advance(MoleculeGas().state, 1e-5);
   EXPECT_GT(population.counters().coagulations, 20u);
   population.forEach([&](const MoleculeParticle& p, double) {
-    if (p.molecules > 1) EXPECT_EQ(p.carbon(), 24.0 * p.molecules);
+    if (p.molecules > 1) {
+      EXPECT_EQ(p.carbon(), 24.0 * p.molecules);
+    }
   });
 }
 
