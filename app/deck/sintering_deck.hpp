@@ -5,7 +5,7 @@
 
 #include "core/modules.hpp"
 #include "io/deck.hpp"
-#include "particles/trees/sintering_law.hpp"
+#include "particles/spheres/sintering_law.hpp"
 
 namespace lampblack::app {
 

@@ -73,34 +73,6 @@ class Squares {
   std::vector<std::size_t> starts_, members_;
 };
 
-// The spheres of a tree from one of them on, each behind the one it is joined to; and that one, as its place among
-// them, and the sphere of the tree that has their neck.
-struct Rooted {
-  std::vector<std::size_t> order, joinedTo, neckOf;
-};
-Rooted rootedAt(std::span<const AggregateSphere> tree, std::size_t root) {
-  const std::size_t n = tree.size();
-  // Children of each, one behind the other.
-  std::vector<std::size_t> starts(n + 1, 0), children(n), next;
-  for (std::size_t k = 1; k < n; ++k) ++starts[tree[k].parent + 1];
-  for (std::size_t k = 1; k <= n; ++k) starts[k] += starts[k - 1];
-  next.assign(starts.begin(), starts.end() - 1);
-  for (std::size_t k = 1; k < n; ++k) children[next[tree[k].parent]++] = k;
-  Rooted rooted{{root}, {0}, {0}};
-  for (std::size_t at = 0; at < rooted.order.size(); ++at) {
-    const std::size_t i = rooted.order[at], from = at == 0 ? n : rooted.order[rooted.joinedTo[at]];
-    const auto add = [&](std::size_t j, std::size_t neck) {
-      if (j == from) return;
-      rooted.order.push_back(j);
-      rooted.joinedTo.push_back(at);
-      rooted.neckOf.push_back(neck);
-    };
-    if (i != 0) add(tree[i].parent, i);
-    for (std::size_t c = starts[i]; c < starts[i + 1]; ++c) add(children[c], children[c]);
-  }
-  return rooted;
-}
-
 }  // namespace
 
 Rotation randomRotation(RandomStream& random) {
@@ -134,6 +106,29 @@ std::optional<SphereContact> firstContact(std::span<const RigidSphere> first, st
   return contact;
 }
 
+RootedSpheres rootedAt(std::span<const AggregateSphere> tree, std::size_t root) {
+  const std::size_t n = tree.size();
+  // Children of each, one behind the other.
+  std::vector<std::size_t> starts(n + 1, 0), children(n), next;
+  for (std::size_t k = 1; k < n; ++k) ++starts[tree[k].parent + 1];
+  for (std::size_t k = 1; k <= n; ++k) starts[k] += starts[k - 1];
+  next.assign(starts.begin(), starts.end() - 1);
+  for (std::size_t k = 1; k < n; ++k) children[next[tree[k].parent]++] = k;
+  RootedSpheres rooted{{root}, {0}, {0}};
+  for (std::size_t at = 0; at < rooted.order.size(); ++at) {
+    const std::size_t i = rooted.order[at], from = at == 0 ? n : rooted.order[rooted.joinedTo[at]];
+    const auto add = [&](std::size_t j, std::size_t neck) {
+      if (j == from) return;
+      rooted.order.push_back(j);
+      rooted.joinedTo.push_back(at);
+      rooted.neckOf.push_back(neck);
+    };
+    if (i != 0) add(tree[i].parent, i);
+    for (std::size_t c = starts[i]; c < starts[i + 1]; ++c) add(children[c], children[c]);
+  }
+  return rooted;
+}
+
 SphereAggregate joinedAt(std::span<const RigidSphere> firstPlaces, const SphereAggregate& first,
                          std::span<const RigidSphere> secondPlaces, const SphereAggregate& second, const Vector3& shift,
                          std::size_t atFirst, std::size_t atSecond) {
@@ -142,7 +137,7 @@ SphereAggregate joinedAt(std::span<const RigidSphere> firstPlaces, const SphereA
   const std::size_t n = first.count();
   for (std::size_t k = 0; k < n; ++k) spheres[k].centre = firstPlaces[k].centre;
   spheres.reserve(n + second.count());
-  const Rooted rooted = rootedAt(second.spheres(), atSecond);
+  const RootedSpheres rooted = rootedAt(second.spheres(), atSecond);
   for (std::size_t k = 0; k < rooted.order.size(); ++k) {
     AggregateSphere s = second.spheres()[rooted.order[k]];
     s.centre = sum(secondPlaces[rooted.order[k]].centre, shift);
@@ -154,8 +149,8 @@ SphereAggregate joinedAt(std::span<const RigidSphere> firstPlaces, const SphereA
   return joined;
 }
 
-SphereAggregate BallisticJoining::join(const SphereAggregate& first, const SphereAggregate& second,
-                                       RandomStream& random) {
+SphereContact BallisticJoining::meet(const SphereAggregate& first, const SphereAggregate& second,
+                                     RandomStream& random) {
   const double widest = first.reach() + second.reach();
   while (true) {
     ++tries_;
@@ -163,9 +158,14 @@ SphereAggregate BallisticJoining::join(const SphereAggregate& first, const Spher
     const double r = widest * std::sqrt(random.uniform()), angle = 2 * constants::pi * random.uniform();
     turn(first, byFirst, {}, first_);
     turn(second, bySecond, {r * std::cos(angle), r * std::sin(angle), 0}, second_);
-    if (const auto contact = firstContact(first_, second_))
-      return joinedAt(first_, first, second_, second, {0, 0, contact->height}, contact->first, contact->second);
+    if (const auto contact = firstContact(first_, second_)) return *contact;
   }
+}
+
+SphereAggregate BallisticJoining::join(const SphereAggregate& first, const SphereAggregate& second,
+                                       RandomStream& random) {
+  const SphereContact at = meet(first, second, random);
+  return joinedAt(first_, first, second_, second, {0, 0, at.height}, at.first, at.second);
 }
 
 }  // namespace lampblack::particles

@@ -42,12 +42,24 @@ class BallisticJoining {
  public:
   // Joined in point contact.
   [[nodiscard]] SphereAggregate join(const SphereAggregate& first, const SphereAggregate& second, RandomStream& random);
+  // Where the second touches the first; how both stand then, the second not yet moved by the height of the contact, is
+  // in firstPlaces() and secondPlaces().
+  SphereContact meet(const SphereAggregate& first, const SphereAggregate& second, RandomStream& random);
+  [[nodiscard]] std::span<const RigidSphere> firstPlaces() const { return first_; }
+  [[nodiscard]] std::span<const RigidSphere> secondPlaces() const { return second_; }
   [[nodiscard]] std::uint64_t tries() const { return tries_; }  // lines drawn by all calls
 
  private:
   std::vector<RigidSphere> first_, second_;
   std::uint64_t tries_ = 0;
 };
+
+// The spheres of an aggregate from one of them on, each behind the one that it is joined to; the place of that one among
+// them, and the sphere of the aggregate that has their neck.
+struct RootedSpheres {
+  std::vector<std::size_t> order, joinedTo, neckOf;
+};
+[[nodiscard]] RootedSpheres rootedAt(std::span<const AggregateSphere> spheres, std::size_t root);
 
 // Both as they stand, the second moved by `shift`, joined by a neck without width between these two spheres.
 [[nodiscard]] SphereAggregate joinedAt(std::span<const RigidSphere> firstPlaces, const SphereAggregate& first,

@@ -64,6 +64,13 @@ SphereAggregate::SphereAggregate(std::vector<AggregateSphere> spheres) : spheres
   place();
 }
 
+void SphereAggregate::copy(std::span<const AggregateSphere> spheres) {
+  spheres_.assign(spheres.begin(), spheres.end());
+  merges_.clear();
+  reach_ = 0;
+  for (const AggregateSphere& s : spheres_) reach_ = std::max(reach_, length(s.centre) + s.radius);
+}
+
 double SphereAggregate::distance(std::size_t k) const {
   const AggregateSphere &s = spheres_[k], &p = spheres_[s.parent];
   return planeOfNeck(s.radius, s.neck) + planeOfNeck(p.radius, s.neck);

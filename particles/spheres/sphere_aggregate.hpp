@@ -27,12 +27,19 @@ struct SphereSurfaces {
   double free = 0, withNecks = 0;
 };
 
+// One sphere became one with the sphere that it was joined to, which stays; those behind the one that went moved up.
+struct SphereMerge {
+  std::size_t stays = 0, gone = 0;
+};
+
 class SphereAggregate {
  public:
   SphereAggregate() = default;
   explicit SphereAggregate(double radius);
   // As they are said: volumes from the geometry. InputError for what is not a tree.
   explicit SphereAggregate(std::vector<AggregateSphere> spheres);
+  // Spheres of another aggregate, as they are.
+  void copy(std::span<const AggregateSphere> spheres);
 
   [[nodiscard]] std::size_t count() const { return spheres_.size(); }
   [[nodiscard]] std::span<const AggregateSphere> spheres() const { return spheres_; }
@@ -57,6 +64,10 @@ class SphereAggregate {
   // that sphere is now.
   std::size_t mergeDue(std::size_t* followed = nullptr);
   static constexpr double widest = 0.95;
+  // Sphere k > 0 becomes one with its parent, due or not. place() is left to the caller.
+  void mergeWithParent(std::size_t k);
+  // All that have become one since copy(), in their order.
+  [[nodiscard]] std::span<const SphereMerge> merges() const { return merges_; }
 
  private:
   void merge(std::size_t k);  // sphere k > 0 and its parent
@@ -64,6 +75,7 @@ class SphereAggregate {
   [[nodiscard]] std::size_t widestNeckOf(std::size_t i) const;
 
   std::vector<AggregateSphere> spheres_;
+  std::vector<SphereMerge> merges_;
   double reach_ = 0;
 };
 

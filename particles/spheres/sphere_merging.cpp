@@ -12,6 +12,7 @@ void SphereAggregate::merge(std::size_t k) {
   const AggregateSphere gone = spheres_[k];
   const std::size_t i = gone.parent;
   spheres_.erase(spheres_.begin() + static_cast<std::ptrdiff_t>(k));
+  merges_.push_back({i, k});
   AggregateSphere& one = spheres_[i];
   const double volume = one.volume + gone.volume;
   for (std::size_t d = 0; d < 3; ++d)
@@ -50,13 +51,17 @@ std::size_t SphereAggregate::dueNeck(std::vector<SphereSurfaces>& surfaces) cons
   return 0;
 }
 
+void SphereAggregate::mergeWithParent(std::size_t k) {
+  place();
+  merge(k);
+}
+
 std::size_t SphereAggregate::mergeDue(std::size_t* followed) {
   std::vector<SphereSurfaces> surfaces;
   const std::size_t before = count();
   for (std::size_t k = dueNeck(surfaces); k != 0; k = dueNeck(surfaces)) {
     if (followed != nullptr && *followed >= k) *followed = *followed == k ? spheres_[k].parent : *followed - 1;
-    place();
-    merge(k);
+    mergeWithParent(k);
   }
   if (count() != before) place();
   return before - count();

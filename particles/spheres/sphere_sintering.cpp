@@ -1,6 +1,7 @@
 #include "particles/spheres/sphere_sintering.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -113,26 +114,57 @@ bool SphereSintering::mergeAtOnce(SphereAggregate& aggregate, double shortest) c
   return isDue && aggregate.mergeDue() > 0;
 }
 
+// The state of necks, those in point contact as they begin.
+void SphereSintering::begin(const SphereAggregate& aggregate, double temperature) {
+  aggregate_ = &aggregate;
+  temperature_ = temperature;
+  const std::size_t n = aggregate.count();
+  for (std::vector<double>* v : {&radii_, &volumes_, &slopes_, &necks_}) v->resize(n);
+  for (std::vector<double>* v : {&state_, &smallest_, &trial_}) v->resize(n - 1);
+  for (std::size_t i = 0; i < n; ++i) radii_[i] = aggregate.spheres()[i].radius;
+  for (std::size_t k = 1; k < n; ++k) {
+    const double smaller = std::min(radii_[k], radii_[aggregate.spheres()[k].parent]);
+    const double neck = std::max(aggregate.spheres()[k].neck, firstNeck * firstNeck * smaller * smaller);
+    state_[k - 1] = neck * neck * neck;
+    smallest_[k - 1] = std::pow(wellKnown * smaller, 6);
+  }
+}
+
+// dA = (8 pi r - sum 2 pi (2 r - x)) dr + sum 2 pi r dx of each sphere, x dx = r dr - d(R^2)/2.
+double SphereSintering::surfaceRate(const SphereAggregate& aggregate, double temperature) {
+  if (!law_.active() || aggregate.count() < 2) return 0;
+  begin(aggregate, temperature);
+  rates(state_, trial_);
+  const std::size_t n = aggregate.count();
+  std::vector<double>& growth = smallest_;  // of radii, m/s
+  growth.assign(n, 0.0);
+  const auto square = [&](std::size_t k) { return trial_[k - 1] / (3 * necks_[k] * necks_[k]); };
+  const auto bothOf = [&](std::size_t k) { return std::array{k, std::size_t{aggregate.spheres()[k].parent}}; };
+  for (std::size_t k = 1; k < n; ++k)
+    for (const std::size_t i : bothOf(k)) {
+      const double area = constants::pi * necks_[k], x = planeOfNeck(radii_[i], necks_[k]);
+      growth[i] += 0.5 * square(k) * area / (x * slopes_[i]);
+    }
+  double rate = 0;
+  for (std::size_t i = 0; i < n; ++i) rate += 8 * constants::pi * radii_[i] * growth[i];
+  for (std::size_t k = 1; k < n; ++k)
+    for (const std::size_t i : bothOf(k)) {
+      const double r = radii_[i], x = planeOfNeck(r, necks_[k]);
+      const double plane = (r * growth[i] - 0.5 * square(k)) / x;
+      rate += 2 * constants::pi * (r * plane - (2 * r - x) * growth[i]);
+    }
+  return std::max(-rate, 0.0);
+}
+
 void SphereSintering::advance(SphereAggregate& aggregate, double temperature, double time) {
   if (!law_.active() || !(time > 0)) return;
-  aggregate_ = &aggregate;
   temperature_ = temperature;
   double step = 0;
   for (bool isNew = true; time > 0 && aggregate.count() > 1;) {
     if (isNew && mergeAtOnce(aggregate, atOnce * time)) continue;
     const std::size_t n = aggregate.count();
     if (isNew) {
-      for (std::vector<double>* v : {&radii_, &volumes_, &slopes_, &necks_}) v->resize(n);
-      state_.resize(n - 1);
-      smallest_.resize(n - 1);
-      trial_.resize(n - 1);
-      for (std::size_t i = 0; i < n; ++i) radii_[i] = aggregate.spheres()[i].radius;
-      for (std::size_t k = 1; k < n; ++k) {
-        const double smaller = std::min(radii_[k], radii_[aggregate.spheres()[k].parent]);
-        const double neck = std::max(aggregate.spheres()[k].neck, firstNeck * firstNeck * smaller * smaller);
-        state_[k - 1] = neck * neck * neck;
-        smallest_[k - 1] = std::pow(wellKnown * smaller, 6);
-      }
+      begin(aggregate, temperature);
       // The first step by how fast necks widen, as if the error went with its third power.
       rates(state_, trial_);
       step = time;

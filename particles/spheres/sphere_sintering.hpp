@@ -10,7 +10,7 @@
 #include "core/modules.hpp"
 #include "numerics/bogacki_shampine.hpp"
 #include "particles/spheres/sphere_aggregate.hpp"
-#include "particles/trees/sintering_law.hpp"
+#include "particles/spheres/sintering_law.hpp"
 
 namespace lampblack::particles {
 
@@ -26,12 +26,15 @@ class SphereSintering {
 
   // Over a time (s) at a temperature (K). NumericsError.
   void advance(SphereAggregate& aggregate, double temperature, double time);
+  // Area (m2/s, >= 0) by which the surface shrinks now. NumericsError.
+  [[nodiscard]] double surfaceRate(const SphereAggregate& aggregate, double temperature);
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   // Radius of a neck in point contact, over that of the smaller sphere, as sintering begins.
   static constexpr double firstNeck = 0.01;
 
  private:
   void rates(std::span<const double> state, std::vector<double>& to);
+  void begin(const SphereAggregate& aggregate, double temperature);
   bool setRadii(std::span<const double> state);
   bool mergeAtOnce(SphereAggregate& aggregate, double shortest) const;  // s
   [[nodiscard]] bool isPastMerging(std::span<const double> state) const;

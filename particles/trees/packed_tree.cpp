@@ -21,6 +21,10 @@ struct Sums {
 struct Neck {
   double common, sides, range;
 };
+struct Sphere {
+  Vector3 centre;
+  double radius, neck;
+};
 constexpr double mostPlaces = 1 << 26;
 double bothPlaces(std::uint32_t first, std::uint32_t second) {
   return first * mostPlaces + second;
@@ -28,10 +32,10 @@ double bothPlaces(std::uint32_t first, std::uint32_t second) {
 template <class T>
 constexpr std::size_t valuesOf = sizeof(T) / sizeof(double);
 
-// Of primaries the units of their material.
-std::size_t lengthOfRow(std::size_t primaries, const TreeMaterial& material) {
+// Of primaries the units of their material; their spheres where they have places in space.
+std::size_t lengthOfRow(std::size_t primaries, const TreeMaterial& material, bool hasSpheres) {
   return valuesOf<GivenParticle> + valuesOf<Sums> + primaries * material.components.size() +
-         (primaries - 1) * valuesOf<Neck>;
+         (primaries - 1) * valuesOf<Neck> + (hasSpheres ? primaries * valuesOf<Sphere> : 0);
 }
 
 void setSums(TreeHead& tree, const Sums& h) {
@@ -58,9 +62,9 @@ void packSums(const Tree& tree, double number, const TreeMaterial& material, std
   // So many equal spheres have its volume and its surface: S^3 / (36 pi V^2).
   const double ratio = std::max(1.0, h.surface / treeSphere(h.volume));
   packDoubles(to, GivenParticle{h.volume * material.density, 0, ratio * ratio * ratio, number});
-  packDoubles(to,
-              Sums{static_cast<double>(lengthOfRow(h.count, material)), static_cast<double>(h.count), h.units, h.volume,
-                   h.diameters, h.surfaces, h.levels, h.surface, h.collision, h.sintering, h.time, h.rest});
+  const auto length = static_cast<double>(lengthOfRow(h.count, material, h.pool->hasSpheres()));
+  packDoubles(to, Sums{length, static_cast<double>(h.count), h.units, h.volume, h.diameters, h.surfaces, h.levels,
+                       h.surface, h.collision, h.sintering, h.time, h.rest});
 }
 
 void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
@@ -68,10 +72,14 @@ void packTree(const Tree& tree, double number, const TreeMaterial& material, std
     throw NumericsError("particles: a tree of more than 6.7e7 primaries");
   packSums(tree, number, material, to);
   const std::size_t before = valuesOf<GivenParticle> + valuesOf<Sums>, components = material.components.size();
-  double* place = addRow(to, lengthOfRow(tree.count(), material) - before).data();
+  const bool hasSpheres = tree.head().pool->hasSpheres();
+  double* place = addRow(to, lengthOfRow(tree.count(), material, hasSpheres) - before).data();
   for (const TreePrimary& primary : tree.primaries()) place = std::copy_n(primary.units.begin(), components, place);
   for (const TreeNeck& n : tree.necks())
     for (const double value : {n.common, bothPlaces(n.left, n.right), bothPlaces(n.first, n.last)}) *place++ = value;
+  if (!hasSpheres) return;
+  for (const AggregateSphere& s : tree.spheres())
+    for (const double value : {s.centre[0], s.centre[1], s.centre[2], s.radius, s.neck}) *place++ = value;
 }
 
 Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial& material) {
@@ -81,7 +89,8 @@ Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial
   const auto most = static_cast<double>(rows.size());
   if (!(h.count >= 1) || !(h.count <= most)) throw damaged();
   const auto count = static_cast<std::size_t>(h.count);
-  if (static_cast<double>(lengthOfRow(count, material)) != h.length || !(h.length <= most)) throw damaged();
+  if (static_cast<double>(lengthOfRow(count, material, pool.hasSpheres())) != h.length || !(h.length <= most))
+    throw damaged();
   const auto index = [](double x) { return static_cast<std::uint32_t>(x); };
   const auto first = [&](double both) { return index(both / mostPlaces); };
   const auto second = [&](double both) { return index(both - mostPlaces * first(both)); };
@@ -101,6 +110,12 @@ Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial
     if (std::max({neck.left, neck.right, neck.first, neck.last}) >= tree->count) throw damaged();
     neck.sphere = sphereOfNeck(primariesOf(tree), neck);
     necksOf(tree)[k] = neck;
+  }
+  for (std::uint32_t i = 0; pool.hasSpheres() && i < tree->count; ++i) {
+    const auto s = state.next<Sphere>();
+    const std::uint32_t parent = i == 0 ? 0 : necksOf(tree)[i - 1].left;
+    if (i > 0 && (parent >= i || necksOf(tree)[i - 1].right != i)) throw damaged();
+    spheresOf(tree)[i] = {s.centre, s.radius, material.volume(primariesOf(tree)[i].units), s.neck, parent};
   }
   setSums(*tree, h);
   return handle;

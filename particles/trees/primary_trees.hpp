@@ -10,7 +10,7 @@
 #include "core/modules.hpp"
 #include "core/random.hpp"
 #include "particles/population/model/particle_type.hpp"
-#include "particles/trees/tree_shape.hpp"
+#include "particles/trees/tree_spheres.hpp"
 
 namespace lampblack::particles {
 
@@ -21,11 +21,15 @@ class PrimaryTrees {
 
   PrimaryTrees(const TreeMaterial& material, CollisionSize size, TreeShape shape = TreeShape::primaries)
       : material_(std::make_shared<TreeMaterial>(material)),
-        pool_(std::make_shared<TreePool>()),
+        pool_(std::make_shared<TreePool>(shape == TreeShape::spheres)),
         size_(size),
-        shape_(shape) {}
+        shape_(shape) {
+    if (shape == TreeShape::spheres) spheres_ = std::make_shared<TreeSpheres>(*material_, size);
+  }
 
   [[nodiscard]] bool bySurface() const { return shape_ == TreeShape::surfaceVolume; }
+
+  [[nodiscard]] TreeSpheres* spheres() const { return spheres_.get(); }  // null of other shapes
 
   [[nodiscard]] const TreeMaterial& material() const { return *material_; }
   [[nodiscard]] TreePool& pool() const { return *pool_; }
@@ -41,6 +45,7 @@ class PrimaryTrees {
     TreeHead* head = pool_->allocate(1);
     head->count = 1;
     *primariesOf(head) = {units, treeDiameter(material_->volume(units))};
+    if (spheres_) TreeSpheres::start(*head);
     measure(*head);
     return Tree(head);
   }
@@ -50,7 +55,8 @@ class PrimaryTrees {
     units[0] = volume / material_->volume(units);
     return make(units);
   }
-  // In point contact at a primary of each, drawn uniformly (eq. 35). Those of the smaller tree move.
+  // In point contact at a primary of each, drawn uniformly (eq. 35); of spheres in space where they touch. Those of the
+  // smaller tree move.
   [[nodiscard]] Tree coagulated(Tree&& p, Tree&& q, RandomStream& random) const {
     for (Tree* one : {&p, &q})
       if (isAggregate(one->head()) && one->head().time < clock() && shared_->sinter) shared_->sinter(*one, clock());
@@ -59,6 +65,12 @@ class PrimaryTrees {
     const std::size_t n = p.count(), m = q.count();
     TreeHead& tree = p.own(n + m);
     const TreeHead& other = q.head();
+    if (spheres_) {
+      spheres_->join(tree, other, random);
+      measure(tree);
+      tree.sintering += other.sintering;
+      return sinteredOn(std::move(p));
+    }
     TreePrimary* primaries = primariesOf(&tree);
     TreeNeck* necks = necksOf(&tree);
     std::copy_n(q.primaries().data(), m, primaries + n);
@@ -96,6 +108,7 @@ class PrimaryTrees {
 
   // By volume and surface the surface stays as it is, where it can.
   void measure(TreeHead& tree) const {
+    if (spheres_) return spheres_->measure(tree);
     const double surface = tree.surface;
     measureTree(tree, 1 / material_->fractalDimension, size_);
     if (!bySurface()) return;
@@ -130,6 +143,7 @@ class PrimaryTrees {
   };
   std::shared_ptr<const TreeMaterial> material_;
   std::shared_ptr<TreePool> pool_;
+  std::shared_ptr<TreeSpheres> spheres_;
   std::shared_ptr<Shared> shared_ = std::make_shared<Shared>();
   CollisionSize size_;
   TreeShape shape_;

@@ -1,7 +1,6 @@
 // A particle as a tree of primaries: a handle to a block of a TreePool. Copies share the block until one is to change.
 #pragma once
 
-#include <cstring>
 #include <span>
 #include <utility>
 
@@ -38,18 +37,14 @@ class Tree {
   [[nodiscard]] std::span<const TreePrimary> primaries() const { return {primariesOf(head_), head_->count}; }
   [[nodiscard]] std::span<const TreeNeck> necks() const { return {necksOf(head_), std::size_t{head_->count} - 1}; }
 
+  // Of a pool that has them.
+  [[nodiscard]] std::span<const AggregateSphere> spheres() const { return {spheresOf(head_), head_->count}; }
+
   // For changes, seen by this handle alone and with room for so many primaries.
   TreeHead& own(std::size_t room = 0) {
     if (head_->holders == 1 && room <= head_->capacity) return *head_;
     TreeHead* block = head_->pool->allocate(std::max<std::size_t>(room, head_->count));
-    const std::uint32_t capacity = block->capacity;
-    TreePool* pool = block->pool;
-    std::memcpy(static_cast<void*>(primariesOf(block)), primariesOf(head_), head_->count * sizeof(TreePrimary));
-    std::memcpy(static_cast<void*>(necksOf(block)), necksOf(head_), (head_->count - 1) * sizeof(TreeNeck));
-    *block = *head_;
-    block->pool = pool;
-    block->capacity = capacity;
-    block->holders = 1;
+    TreePool::copy(*head_, *block);
     Tree(block).swap(*this);
     return *head_;
   }
@@ -65,13 +60,7 @@ inline void Tree::fit() {
   Tree small(head_->pool->allocate(head_->count));
   TreeHead* block = small.head_;
   if (block->capacity >= head_->capacity) return;
-  const std::uint32_t capacity = block->capacity;
-  std::memcpy(static_cast<void*>(primariesOf(block)), primariesOf(head_), head_->count * sizeof(TreePrimary));
-  std::memcpy(static_cast<void*>(necksOf(block)), necksOf(head_), (head_->count - 1) * sizeof(TreeNeck));
-  TreeHead copy = *head_;
-  copy.capacity = capacity;
-  copy.holders = 1;
-  *block = copy;
+  TreePool::copy(*head_, *block);
   small.swap(*this);
 }
 

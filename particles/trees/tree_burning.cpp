@@ -24,7 +24,12 @@ void joinOverBurnt(const PrimaryTrees& type, Tree& handle) {
       if (closest == tree.count || necks[k].common > necks[closest].common) closest = k;
     }
     if (closest == tree.count) break;
-    fuseNeck(tree, closest, type.material());
+    if (TreeSpheres* spheres = type.spheres()) {
+      spheres->fuse(tree, closest);
+      type.measure(tree);
+    } else {
+      fuseNeck(tree, closest, type.material());
+    }
   }
   type.measure(tree);
   tree.rest = 0;

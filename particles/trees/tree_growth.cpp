@@ -37,6 +37,13 @@ void TreeGrowth::condense(TreeHead& tree, TreePrimary* primaries, std::size_t i,
   changed_ = true;
 }
 
+// Uniformly, or of spheres in space by the surface that is free.
+std::size_t TreeGrowth::drawPrimary(const TreeHead& tree, RandomStream& random) const {
+  if (surfaces_.empty()) return random.below(tree.count);
+  const auto at = std::upper_bound(surfaces_.begin(), surfaces_.end(), random.uniform() * surfaces_.back());
+  return std::min<std::size_t>(static_cast<std::size_t>(at - surfaces_.begin()), tree.count - 1);
+}
+
 // The first event is now, `left` (s) is what remains.
 void TreeGrowth::applySingleEvents(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random,
                                    Changes& changes) {
@@ -44,7 +51,7 @@ void TreeGrowth::applySingleEvents(TreeHead& tree, TreePrimary* primaries, doubl
   while (true) {
     const double surface = rate_ * tree.units[site];
     double total = surface + std::max(0.0, within(tree, tree.units[site]));
-    const std::size_t i = tree.count == 1 ? 0 : random.below(tree.count);
+    const std::size_t i = tree.count == 1 ? 0 : drawPrimary(tree, random);
     if (random.uniform() * total < surface)
       react(tree, primaries, i, 1, changes);
     else
@@ -65,8 +72,11 @@ void TreeGrowth::applyPoissonNumbers(TreeHead& tree, TreePrimary* primaries, dou
   for (double s = 0; s < steps; ++s) {
     const double sites = tree.units[site], inside = within(tree, sites);
     if (inside < 0) ++changes.limited;
-    const double surface = rate_ * sites * h / n, condensing = std::max(inside, 0.0) * h / n;
+    const double all = rate_ * sites * h, allInside = std::max(inside, 0.0) * h;
     for (std::size_t i = 0; i < tree.count; ++i) {
+      const bool isEqual = surfaces_.empty();
+      const double part = isEqual ? 0 : (surfaces_[i] - (i > 0 ? surfaces_[i - 1] : 0)) / surfaces_.back();
+      const double surface = isEqual ? all / n : all * part, condensing = isEqual ? allInside / n : allInside * part;
       const double events = poisson(random, surface), pairs = poisson(random, condensing);
       if (events > 0) react(tree, primaries, i, events, changes);
       if (pairs > 0) condense(tree, primaries, i, pairs, changes);
@@ -87,6 +97,7 @@ bool TreeGrowth::advance(Tree& handle, double dt, RandomStream& random, Changes&
   TreeHead& tree = handle.own();
   grown_.assign(tree.count, 0.0);
   changed_ = false;
+  if (type_.spheres() != nullptr) type_.spheres()->sumSurfaces(tree, surfaces_);
   if (expected <= fewEvents)
     applySingleEvents(tree, primariesOf(&tree), left, random, changes);
   else

@@ -34,6 +34,7 @@ class TreeGrowth {
  private:
   void applySingleEvents(TreeHead& tree, TreePrimary* primaries, double left, RandomStream& random, Changes& changes);
   void applyPoissonNumbers(TreeHead& tree, TreePrimary* primaries, double dt, RandomStream& random, Changes& changes);
+  [[nodiscard]] std::size_t drawPrimary(const TreeHead& tree, RandomStream& random) const;
   void react(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
   void condense(TreeHead& tree, TreePrimary* primaries, std::size_t i, double events, Changes& changes);
 
@@ -43,7 +44,8 @@ class TreeGrowth {
   const SiteReactions& reactions_;
   double rate_ = 0;
   bool changed_ = false;
-  std::vector<double> grown_;  // by surface reactions, of each primary
+  std::vector<double> grown_;     // by surface reactions, of each primary
+  std::vector<double> surfaces_;  // free, of the primaries up to each; of spheres in space
 };
 
 }  // namespace lampblack::particles

@@ -60,6 +60,13 @@ bool TreeMaterial::hasPrecursors(const ParticleGas& gas) const {
   return gas.concentrations[0] > negligiblePrecursor * gas.pressure / (constants::gasConstant * gas.temperature);
 }
 
+double TreeMaterial::volumeOfSite() const {
+  TreeUnits site{};
+  site[sites()->site] = 1;
+  site[sites()->bridge] = -0.5;
+  return volume(site);
+}
+
 void requireMaterial(const TreeMaterial& m) {
   requireTree(!m.components.empty() && m.components.size() <= mostTreeComponents,
               fmt::format("a material has 1 to {} components, not {}", mostTreeComponents, m.components.size()));

@@ -15,7 +15,7 @@
 #include "particles/gas/soot_gas.hpp"
 #include "particles/population/model/collision_kernel.hpp"
 #include "particles/soot/soot_fragmentation.hpp"
-#include "particles/trees/sintering_law.hpp"
+#include "particles/spheres/sintering_law.hpp"
 
 namespace lampblack::particles {
 
@@ -93,6 +93,8 @@ struct TreeMaterial {
   [[nodiscard]] std::vector<std::string> precursors() const;
   // Whether a gas, with these species, has what particles are born of, to speak of.
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const;
+  // m3 that a site takes along as it becomes half a bridge.
+  [[nodiscard]] double volumeOfSite() const;
   [[nodiscard]] double volume(const TreeUnits& units) const {  // m3
     double sum = 0;
     for (std::size_t c = 0; c < components.size(); ++c) sum += units[c] * components[c].weight;

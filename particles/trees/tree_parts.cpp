@@ -38,6 +38,17 @@ std::vector<Tree> partsOfTree(const PrimaryTrees& type, const Tree& whole, std::
       neck.last = before[neck.last + 1] - 1;
       necksOf(tree)[before[k + 1] - 1] = neck;
     }
+    if (TreeSpheres* spheres = type.spheres()) {
+      for (std::size_t i = 0; i < count; ++i) {
+        if (partOf(i) != root) continue;
+        AggregateSphere& s = spheresOf(tree)[before[i]];
+        s = whole.spheres()[i];
+        const bool isJoined = before[i] > 0;
+        s.parent = isJoined ? before[s.parent] : 0;
+        s.neck = isJoined ? s.neck : 0;
+      }
+      spheres->close(*tree);
+    }
     type.measure(*tree);
     tree->time = whole.head().time;
     parts.push_back(std::move(handle));

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <cstring>
 #include <new>
 
 #include "core/errors.hpp"
@@ -21,12 +22,13 @@ const std::vector<std::uint32_t>& capacities() {
   return all;
 }
 
-std::size_t blockBytes(std::size_t capacity) {
-  const std::size_t bytes = TreePool::headBytes + capacity * sizeof(TreePrimary) + (capacity - 1) * sizeof(TreeNeck);
+}  // namespace
+
+std::size_t TreePool::blockBytes(std::size_t capacity) const {
+  std::size_t bytes = headBytes + capacity * sizeof(TreePrimary) + (capacity - 1) * sizeof(TreeNeck);
+  if (hasSpheres_) bytes += capacity * sizeof(AggregateSphere);
   return (bytes + 15) / 16 * 16;
 }
-
-}  // namespace
 
 // At the beginning of its own aligned memory, which the blocks follow. A free block begins with a pointer to the next.
 struct TreePool::Slab {
@@ -36,7 +38,7 @@ struct TreePool::Slab {
   std::uint32_t used = 0, places = 0, size = 0;  // size: its class
 };
 
-TreePool::TreePool() : open_(capacities().size(), nullptr) {}
+TreePool::TreePool(bool hasSpheres) : hasSpheres_(hasSpheres), open_(capacities().size(), nullptr) {}
 
 // All trees are gone: their owners live shorter.
 TreePool::~TreePool() {
@@ -103,6 +105,20 @@ TreeHead* TreePool::allocate(std::size_t primaries) {
   head->holders = 1;
   head->capacity = static_cast<std::uint32_t>(capacity);
   return head;
+}
+
+void TreePool::copy(const TreeHead& from, TreeHead& to) {
+  auto* source = const_cast<TreeHead*>(&from);
+  std::memcpy(static_cast<void*>(primariesOf(&to)), primariesOf(source), from.count * sizeof(TreePrimary));
+  std::memcpy(static_cast<void*>(necksOf(&to)), necksOf(source), (from.count - 1) * sizeof(TreeNeck));
+  if (from.pool->hasSpheres())
+    std::memcpy(static_cast<void*>(spheresOf(&to)), spheresOf(source), from.count * sizeof(AggregateSphere));
+  TreePool* pool = to.pool;
+  const std::uint32_t capacity = to.capacity;
+  to = from;
+  to.pool = pool;
+  to.capacity = capacity;
+  to.holders = 1;
 }
 
 void TreePool::release(TreeHead* head) {

@@ -1,6 +1,6 @@
 // Room for trees: blocks of a few sizes in slabs of one size each, so that a tree that grows or goes leaves a place for
 // the next, and a slab without trees is one for any size. A block holds a head, then primaries, then necks, one behind
-// the other. Trees of one pool share blocks by counting their holders; not to be used by several threads.
+// the other; where trees have places in space, then their spheres. Trees of one pool share blocks by counting their holders; not to be used by several threads.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/modules.hpp"
+#include "particles/spheres/sphere_aggregate.hpp"
 #include "particles/trees/tree_material.hpp"
 
 namespace lampblack::particles {
@@ -48,7 +49,8 @@ struct TreeHead {
 
 class TreePool {
  public:
-  TreePool();
+  // `hasSpheres`: whether blocks have room for spheres.
+  explicit TreePool(bool hasSpheres = false);
   ~TreePool();
   TreePool(const TreePool&) = delete;
   TreePool& operator=(const TreePool&) = delete;
@@ -56,6 +58,10 @@ class TreePool {
   // Room for at least so many primaries, with one holder; nothing but pool, holders and capacity is set.
   TreeHead* allocate(std::size_t primaries);
   void release(TreeHead* block);
+  [[nodiscard]] bool hasSpheres() const { return hasSpheres_; }
+  // Primaries, necks and spheres of one block to another with room for them; the head as well, but for what says which
+  // block it is, and for its one holder.
+  static void copy(const TreeHead& from, TreeHead& to);
   [[nodiscard]] std::size_t bytes() const { return bytes_; }  // of all slabs
 
   static constexpr std::size_t headBytes = (sizeof(TreeHead) + 15) / 16 * 16;
@@ -64,6 +70,8 @@ class TreePool {
   struct Slab;
   static constexpr std::size_t slabBytes = 64 * 1024, regionBytes = 64 * slabBytes;
   void* slabMemory();
+  [[nodiscard]] std::size_t blockBytes(std::size_t capacity) const;
+  bool hasSpheres_;
   static std::size_t classOf(std::size_t primaries);
   std::vector<Slab*> open_;            // of each class: slabs with room, linked
   std::vector<void*> regions_, free_;  // regions are cut into slabs
@@ -75,6 +83,10 @@ inline TreePrimary* primariesOf(TreeHead* head) {
 }
 inline TreeNeck* necksOf(TreeHead* head) {
   return reinterpret_cast<TreeNeck*>(primariesOf(head) + head->capacity);
+}
+// One of each primary, of a pool that has them: its parent is the left primary of the neck before it, its neck that one.
+inline AggregateSphere* spheresOf(TreeHead* head) {
+  return reinterpret_cast<AggregateSphere*>(necksOf(head) + head->capacity - 1);
 }
 
 }  // namespace lampblack::particles

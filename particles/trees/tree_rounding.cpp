@@ -7,6 +7,12 @@
 namespace lampblack::particles {
 
 void roundTree(const PrimaryTrees& type, TreeHead& tree, std::vector<double>& change, double piece) {
+  if (TreeSpheres* spheres = type.spheres()) {
+    spheres->follow(tree);
+    type.measure(tree);
+    tree.rest = 0;
+    return;
+  }
   const TreeMaterial& m = type.material();
   TreePrimary* primaries = primariesOf(&tree);
   if (type.bySurface()) {

@@ -14,8 +14,8 @@
 namespace lampblack::particles {
 
 // What a particle is: primaries that share surface; or its volume and surface alone (surface_volume.hpp), as one
-// primary of its volume with a surface of its own.
-enum class TreeShape { primaries, surfaceVolume };
+// primary of its volume with a surface of its own; or primaries that are overlapping spheres in space (TreeSpheres).
+enum class TreeShape { primaries, surfaceVolume, spheres };
 
 // Two equal spheres in point contact have a sphere's surface over theirs of 2^(-1/3), where the sintering level is 0.
 inline constexpr double touching = 0.79370052598409973738;
@@ -25,8 +25,9 @@ inline constexpr double fusedLevel = 0.95;
 inline constexpr double fusedRatio = 1 / (fusedLevel * (1 - touching) + touching);
 
 // What diameter the number of primaries is raised from in the diameter of collision (eq. 17): their mean (eq. 18), or
-// 6 V/S of the aggregate, by which a sphere that has sintered is a sphere (Lavvas, Sander, Kraft, Imanaka 2011).
-enum class CollisionSize { primaries, volumeToSurface };
+// 6 V/S of the aggregate, by which a sphere that has sintered is a sphere (Lavvas, Sander, Kraft, Imanaka 2011). Or, of
+// spheres in space, the diameter of the sphere with their mean shadow along three lines at right angles.
+enum class CollisionSize { primaries, volumeToSurface, shadow };
 
 // Volumes of trees are normal numbers by far, and the root is asked for all the time.
 [[nodiscard, gnu::always_inline]] inline double treeDiameter(double volume) {
@@ -52,6 +53,14 @@ enum class CollisionSize { primaries, volumeToSurface };
   return sphere / (level * (1 - touching) + touching);
 }
 
+// Diameter of collision of a tree from its sums and its surface (eqs. 17-19): n_r = S^3 / (36 pi V^2) is the ratio of
+// the surfaces to the third power.
+[[nodiscard]] inline double collisionOfSurface(const TreeHead& tree, double inverseDimension, CollisionSize size) {
+  const double ratio = tree.surface / treeSphere(tree.volume);
+  const double diameter =
+      size == CollisionSize::primaries ? tree.diameters / tree.count : 6 * tree.volume / tree.surface;
+  return diameter * std::pow(ratio, 3 * inverseDimension);
+}
 // Surface and diameter of collision of a tree from its sums (eqs. 15-19).
 inline void shapeTree(TreeHead& tree, double inverseDimension, CollisionSize size) {
   if (tree.count == 1) {
@@ -62,10 +71,7 @@ inline void shapeTree(TreeHead& tree, double inverseDimension, CollisionSize siz
   const double n = tree.count, root = 1 / cubeRoot(n), level = tree.levels / (n - 1);
   const double sphere = treeSphere(tree.volume);
   tree.surface = sphere / (level * (1 - root) + root);
-  // n_r = S^3 / (36 pi V^2) is the ratio of the surfaces to the third power.
-  const double ratio = tree.surface / sphere;
-  const double diameter = size == CollisionSize::primaries ? tree.diameters / n : 6 * tree.volume / tree.surface;
-  tree.collision = diameter * std::pow(ratio, 3 * inverseDimension);
+  tree.collision = collisionOfSurface(tree, inverseDimension, size);
 }
 
 // How many equal primaries of 6 V/S in point contact have its volume and surface, n_r = S^3 / (36 pi V^2) (eq. 19).
@@ -98,8 +104,8 @@ inline void shapeBySurface(TreeHead& tree, double inverseDimension) {
   tree.collision = tree.diameters / ratio * std::pow(ratio, 3 * inverseDimension);
 }
 
-// All sums afresh, from primaries and necks that are up to date.
-inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize size) {
+// Sums over primaries and necks afresh, from those that are up to date; and what follows from them.
+inline void sumTree(TreeHead& tree) {
   tree.units = {};
   tree.volume = tree.diameters = tree.surfaces = tree.levels = 0;
   const TreePrimary* primaries = primariesOf(&tree);
@@ -112,6 +118,9 @@ inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize s
   }
   const TreeNeck* necks = necksOf(&tree);
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) tree.levels += sinteringLevel(necks[k]);
+}
+inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize size) {
+  sumTree(tree);
   shapeTree(tree, inverseDimension, size);
 }
 

@@ -14,13 +14,7 @@ constexpr double negligibleLoss = 1e-2;
 }  // namespace
 
 TreeSintering::TreeSintering(const PrimaryTrees& type, double tolerance) : type_(type), tolerance_(tolerance) {
-  const TreeMaterial& m = type.material();
-  const SiteReactions* sites = m.sites();
-  if (sites == nullptr) return;
-  TreeUnits site{};
-  site[sites->site] = 1;
-  site[sites->bridge] = -0.5;
-  volumeOfSite_ = m.volume(site);
+  if (type.material().sites() != nullptr) volumeOfSite_ = type.material().volumeOfSite();
 }
 
 TreeSintering::Shrinking TreeSintering::shrinking(const TreePrimary* primaries, const TreeNeck& neck,
@@ -231,6 +225,11 @@ void TreeSintering::rest(TreeHead& tree, double time) {
   tree.sintering = 0;
   tree.rest = never;
   if (!isAggregate(tree) || !law.active()) return;
+  if (TreeSpheres* spheres = type_.spheres()) {
+    tree.sintering = spheres->sinteringRate(tree, T_);
+    if (tree.sintering > 0) tree.rest = tolerance_ * tree.surfaces / tree.sintering;
+    return;
+  }
   if (type_.bySurface()) {
     tree.sintering = partRate(tree.volume, tree.surface);
     if (tree.sintering > 0) tree.rest = tolerance_ * tree.surfaces / tree.sintering;
@@ -255,6 +254,15 @@ void TreeSintering::advance(Tree& tree, double time, Changes& changes, bool isMe
   if (!isAggregate(tree.head())) return;
   const SinteringLaw& law = type_.material().sintering;
   const double dt = std::max(0.0, time - tree.head().time);
+  if (TreeSpheres* spheres = type_.spheres()) {
+    if (law.active()) changes.bridges += spheres->sinter(tree.own(), T_, dt);
+    changes.fused += spheres->takeMerged();
+    TreeHead& head = tree.own();
+    if (law.active() || !isMeasured) type_.measure(head);
+    rest(head, std::max(time, head.time));
+    tree.fit();
+    return;
+  }
   if (type_.bySurface())
     surface(tree.own(), dt, changes);
   else if (!law.active())

@@ -88,15 +88,20 @@ void TreeSoot::applyEvents(TreePrimary& primary, std::size_t kind, double times)
   primary.units[Component::hydrogen] = hydrogen / hydrogenAtom_;
 }
 
+// Of the primaries up to each: of spheres in space what is free.
+void TreeSoot::sumSurfaces(const TreeHead& tree) {
+  if (type_.spheres() != nullptr) return type_.spheres()->sumSurfaces(tree, surfaces_);
+  surfaces_.clear();
+  double sum = 0;
+  const TreePrimary* primaries = primariesOf(const_cast<TreeHead*>(&tree));
+  for (std::size_t i = 0; i < tree.count; ++i) surfaces_.push_back(sum += primarySurface(primaries[i].diameter));
+}
+
 // The first event is due where `left` of the expected numbers are still to come.
 void TreeSoot::applySingleEvents(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random) {
   TreePrimary* primaries = primariesOf(&tree);
   const double total = sumOf(expected);
-  if (tree.count > 1) {
-    surfaces_.clear();
-    double sum = 0;
-    for (std::size_t i = 0; i < tree.count; ++i) surfaces_.push_back(sum += primarySurface(primaries[i].diameter));
-  }
+  if (tree.count > 1) sumSurfaces(tree);
   do {
     const std::size_t kind = eventAt(expected, random.uniform() * total);
     std::size_t i = 0;
@@ -111,8 +116,11 @@ void TreeSoot::applySingleEvents(TreeHead& tree, const SootEventNumbers& expecte
 
 void TreeSoot::applyPoissonNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random) {
   TreePrimary* primaries = primariesOf(&tree);
+  const bool areSpheres = type_.spheres() != nullptr;
+  if (areSpheres) sumSurfaces(tree);
   for (std::size_t i = 0; i < tree.count; ++i) {
-    const double part = primarySurface(primaries[i].diameter) / tree.surfaces;
+    const double part = areSpheres ? (surfaces_[i] - (i > 0 ? surfaces_[i - 1] : 0)) / surfaces_.back()
+                                   : primarySurface(primaries[i].diameter) / tree.surfaces;
     for (std::size_t kind = 0; kind < expected.size(); ++kind) {
       const double times = poisson(random, part * expected[kind]);
       if (times > 0) applyEvents(primaries[i], kind, times);

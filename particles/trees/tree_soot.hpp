@@ -54,6 +54,7 @@ class TreeSoot {
   [[nodiscard]] SootPopulationLaw law(double tolerance) const;
   [[nodiscard]] SootAggregate::Particle asSphere(const TreeHead& tree) const;
   void applyEvents(TreePrimary& primary, std::size_t kind, double times);
+  void sumSurfaces(const TreeHead& tree);
   void applySingleEvents(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random);
   void applyPoissonNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random);
   TreeFate react(Tree& tree, RandomStream& random);
