@@ -37,13 +37,23 @@ void addProcesses(DeckSchema& schema) {
                .byDefault("coagulation")
                .onlyWith(ofOtherMaterials()))
       .add(choiceKey(
-               "particles.collision_size", {"primaries", "volume_to_surface"},
+               "particles.collision_size", {"primaries", "volume_to_surface", "shadow"},
                "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter "
                "of primaries (Shekar et al. 2011, eqs. 17, 18), or 6 V/S of the particle, by which a particle that has "
-               "become a sphere has its diameter.")
+               "become a sphere has its diameter. shadow, with 'geometry: spheres': of the sphere with the mean shadow "
+               "of the particle along three lines at right angles.")
                .byDefault("primaries")
                .byDefault("volume_to_surface", {ofSoot()})
                .onlyWith(ofTrees()));
+}
+
+void addGeometry(DeckSchema& schema) {
+  schema.add(choiceKey("particles.geometry", {"shared_surface", "spheres"},
+                       "What primaries that touch are: two that share surface (Shekar et al. 2011); or overlapping "
+                       "spheres with places in space, which collide on straight lines, grow on their free surface and "
+                       "sinter by the approach of their centres (Lindberg et al. 2019).")
+                 .byDefault("shared_surface")
+                 .onlyWith(ofTrees()));
 }
 
 constexpr const char* initial = "particles.initial";
@@ -118,6 +128,7 @@ std::vector<double> readTablesAt(const Deck& deck) {
 
 void addTreeKeys(DeckSchema& schema) {
   addTreeMaterialKeys(schema);
+  addGeometry(schema);
   addProcesses(schema);
 }
 
@@ -186,6 +197,26 @@ CollisionKernelOptions readCollisions(const Deck& deck) {
   return options;
 }
 
+namespace {
+
+CollisionSize readCollisionSize(const Deck& deck, TreeShape shape) {
+  const std::string name = deck.choice("particles.collision_size");
+  if (name != "shadow") return name == "primaries" ? CollisionSize::primaries : CollisionSize::volumeToSurface;
+  if (shape != TreeShape::spheres)
+    throw deck.error("particles.collision_size", "only particles with 'geometry: spheres' have a shadow");
+  return CollisionSize::shadow;
+}
+
+// What the law of sintering of spheres in space does not have.
+void requireSpheres(const Deck& deck, const SinteringLaw& law) {
+  if (law.between == SinteringLaw::Between::parts)
+    throw deck.error("particles.sintering.between", "with 'geometry: spheres' sinter 'neighbours'");
+  if (law.size != SinteringLaw::Size::smaller)
+    throw deck.error("particles.sintering.size", "with 'geometry: spheres' the size is that of the 'smaller'");
+}
+
+}  // namespace
+
 TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   TreeOptions options;
   options.material = readTreeMaterial(deck, mechanism);
@@ -193,12 +224,15 @@ TreeOptions readTreeOptions(const Deck& deck, const Mechanism& mechanism) {
   options.sinteringTolerance = deck.number("particles.sintering.tolerance");
   options.coagulation = deck.boolean("particles.coagulation");
   if (deck.choice(descriptionKey) == "ensemble") options.shape = TreeShape::surfaceVolume;
+  if (deck.has("particles.geometry") && deck.choice("particles.geometry") == "spheres") {
+    options.shape = TreeShape::spheres;
+    requireSpheres(deck, options.material.sintering);
+  }
   options.kernel = readCollisions(deck);
   if (soot == nullptr)
     options.material.siteReactions().freeMolecularInception =
         deck.choice("particles.inception_kernel") == "free_molecular";
-  options.size = deck.choice("particles.collision_size") == "primaries" ? CollisionSize::primaries
-                                                                        : CollisionSize::volumeToSurface;
+  options.size = readCollisionSize(deck, options.shape);
   options.particles = readSampleNumber(deck, "particles", 1000);  // some ten primaries each
   options.splitTolerance = deck.number("particles.split_tolerance");
   return options;

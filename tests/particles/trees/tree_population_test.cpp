@@ -20,7 +20,7 @@ namespace {
 
 // What the gas gives is what particles gain, unit by unit, and the sample has it as long as nothing is removed from it.
 class BooksOfTrees : public testing::TestWithParam<TreeShape> {};
-INSTANTIATE_TEST_SUITE_P(Shapes, BooksOfTrees, testing::Values(TreeShape::primaries, TreeShape::surfaceVolume));
+INSTANTIATE_TEST_SUITE_P(Shapes, BooksOfTrees, testing::Values(TreeShape::primaries, TreeShape::surfaceVolume, TreeShape::spheres));
 
 TEST_P(BooksOfTrees, BookEveryUnit) {
   Nitrogen nitrogen;
@@ -42,7 +42,7 @@ TEST_P(BooksOfTrees, BookEveryUnit) {
   ASSERT_EQ(trees->counters().removals, 0U);
   const TreeTotals totals = trees->totals();
   ASSERT_GT(totals.number, 0);
-  if (GetParam() == TreeShape::primaries) {
+  if (GetParam() != TreeShape::surfaceVolume) {
     ASSERT_GT(trees->counters().fused, 0U);
   } else {
     EXPECT_EQ(totals.largest, 1U);

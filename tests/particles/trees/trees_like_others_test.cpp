@@ -143,6 +143,37 @@ TEST_P(TreesLikeOthers, ThatCoalesceAreSpheresInLaw) {
   expectSameLaw(trees, ofType(Sphere(2200), options, 40));
 }
 
+// Where only the kernel sees the diameter of collision, places of primaries change nothing.
+TreeOptions inSpaceWithoutSintering() {
+  TreeOptions options = optionsOf(SinteringMechanism::none, CollisionKernelType::freeMolecular);
+  options.shape = TreeShape::spheres;
+  return options;
+}
+
+TEST(TreesInSpaceLikeOthers, WithoutSinteringAreAsManyAsFractalAggregates) {
+  TreeOptions options = inSpaceWithoutSintering();
+  options.particles = 250;
+  const FractalAggregate type(2200, sphereDiameter(options.material.volume(sphere)), 1.8);
+  const Sample a = summarise(ofTrees(options, 20).number), b = summarise(ofType(type, options, 20).number);
+  const double error = std::hypot(a.standardError, b.standardError);
+  EXPECT_LT(std::abs(a.mean - b.mean), zLimit * error);
+  EXPECT_LT(error, 0.02 * b.mean);
+}
+
+TEST(TreesInSpaceLikeOthersLong, WithoutSinteringAreFractalAggregatesInLaw) {
+  const TreeOptions options = inSpaceWithoutSintering();
+  const FractalAggregate type(2200, sphereDiameter(options.material.volume(sphere)), 1.8);
+  expectSameLaw(ofTrees(options, 40), ofType(type, options, 40));
+}
+
+TEST(TreesInSpaceLikeOthers, ThatSinterAtOnceAreSpheresInLaw) {
+  TreeOptions options = optionsOf(SinteringMechanism::constant, CollisionKernelType::freeMolecular);
+  options.shape = TreeShape::spheres;
+  options.particles = 250;
+  const TreeUnits units = dry(options.material);
+  expectSameLaw(ofTrees(options, 40, units), ofType(Sphere(2200), options, 40, units));
+}
+
 INSTANTIATE_TEST_SUITE_P(Kernels, TreesLikeOthers,
                          testing::Values(CollisionKernelType::freeMolecular, CollisionKernelType::transition));
 
