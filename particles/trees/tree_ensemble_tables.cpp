@@ -1,8 +1,10 @@
 // Every particle of a population of trees as tables: particles, primaries, necks. Primaries and necks stand in the
 // order of the particles, and within one in that of the tree of collisions (tree_pool.hpp).
+#include <cmath>
 #include <cstdint>
 #include <utility>
 
+#include "particles/spheres/sphere_measures.hpp"
 #include "particles/trees/tree_ensemble.hpp"
 #include "particles/trees/tree_population.hpp"
 #include "particles/trees/tree_shape.hpp"
@@ -66,10 +68,18 @@ std::vector<StochasticPopulation::Table> TreeEnsemble::tables() const {
   particles.real("primary_diameter", "m", "mean over the particle's primaries");
   particles.real("sintering_level", "1", "mean over the particle's necks; of one primary 1");
 
+  const bool areInSpace = options_.shape == TreeShape::spheres;
+  if (areInSpace) particles.real("gyration_radius", "m", "of the particle, its spheres as their necks cut them");
+
   TableRows primaries("primaries", count);
   primaries.whole("particle", "row of the primary's particle, from 0");
   components(primaries, "primary");
   primaries.real("diameter", "m", "of the sphere of the primary's volume");
+  if (areInSpace) {
+    primaries.real("radius", "m", "of the primary's sphere, which its necks cut");
+    for (const char* axis : {"x", "y", "z"})
+      primaries.real(axis, "m", "place of the sphere's centre, from the particle's centre of mass");
+  }
 
   TableRows necks("necks", count - trees.size());
   necks.whole("particle", "row of the neck's particle, from 0");
@@ -81,6 +91,7 @@ std::vector<StochasticPopulation::Table> TreeEnsemble::tables() const {
   necks.real("sintering_level", "1", "0 in point contact, 1 a sphere");
 
   const double weight = trees_->weight();
+  SphereAggregate aggregate;
   std::int64_t particle = 0, before = 0;
   for (const Tree& tree : trees) {
     const TreeHead& head = tree.head();
@@ -91,10 +102,17 @@ std::vector<StochasticPopulation::Table> TreeEnsemble::tables() const {
     particles.put(std::int64_t{head.count});
     particles.put(meanPrimaryDiameter(head));
     particles.put(meanSinteringLevel(head));
-    for (const TreePrimary& primary : tree.primaries()) {
+    if (areInSpace) {
+      aggregate.copy(tree.spheres());
+      particles.put(std::sqrt(gyrationSquared(aggregate)));
+    }
+    for (std::size_t i = 0; i < tree.count(); ++i) {
       primaries.put(particle);
-      units(primaries, primary.units);
-      primaries.put(primary.diameter);
+      units(primaries, tree.primaries()[i].units);
+      primaries.put(tree.primaries()[i].diameter);
+      if (!areInSpace) continue;
+      const AggregateSphere& s = tree.spheres()[i];
+      for (const double value : {s.radius, s.centre[0], s.centre[1], s.centre[2]}) primaries.put(value);
     }
     for (const TreeNeck& neck : tree.necks()) {
       necks.put(particle);

@@ -9,6 +9,7 @@ PIXELS, SLICES = 420, 120
 GREYS = 128  # a small file
 TYPICAL = 4
 SEED = 1
+DEPTHS = 40  # shades
 
 
 def plot_micrographs(tables, pictures, name):
@@ -20,18 +21,21 @@ def plot_micrographs(tables, pictures, name):
     nearest = np.argsort(np.abs(count - median) + random.random(len(count)), kind="stable")
     typical = [int(i) for i in nearest if i != largest][:TYPICAL]
     figure, axes = plt.subplot_mosaic([["largest", "largest", 0, 1], ["largest", "largest", 2, 3]], figsize=(10.4, 5.6))
-    shapes = {i: _shape(tables, i, random) for i in [largest, *typical]}
+    are_placed = "radius" in tables.primaries
+    shapes = {i: (_placed(tables, i) if are_placed else _shape(tables, i, random)) for i in [largest, *typical]}
     width = max(_width(*shapes[i]) for i in typical)
-    _draw(axes["largest"], *shapes[largest], _width(*shapes[largest]), _label(tables, largest))
+    draw = _draw_by_depth if are_placed else _draw
+    draw(axes["largest"], *shapes[largest], _width(*shapes[largest]), _label(tables, largest))
     for place in range(TYPICAL):
         if place < len(typical):
-            _draw(axes[place], *shapes[typical[place]], width, _label(tables, typical[place]))
+            draw(axes[place], *shapes[typical[place]], width, _label(tables, typical[place]))
         else:
             axes[place].axis("off")
     axes["largest"].set_title("the particle of most primaries", fontsize=10)
     axes[0].set_title(f"typical ones, with the median number\nof primaries ({median}) or next to it", fontsize=10, loc="left")
-    figure.suptitle(f"particles at {tables.moment}, reconstructed positions: neighbours and overlap are computed, directions are random",
-                    fontsize=10)
+    places = ("their places in space; brighter spheres are nearer" if are_placed
+              else "reconstructed positions: neighbours and overlap are computed, directions are random")
+    figure.suptitle(f"particles at {tables.moment}, {places}", fontsize=10)
     pictures.save(figure, name)
 
 
@@ -43,6 +47,13 @@ def _shape(tables, particle, random):
     necks["level"] = tables.necks["sintering_level"][rows]
     diameters = tables.primaries["diameter"][primaries] * 1e9
     return reconstructed(diameters, necks, random), diameters
+
+
+def _placed(tables, particle):
+    """The same of spheres whose places are known."""
+    rows = tables.primaries["particle"] == particle
+    centres = np.stack([tables.primaries[axis][rows] for axis in "xyz"], axis=1)
+    return centres * 1e9, tables.primaries["radius"][rows] * 2e9
 
 
 def _label(tables, particle):
@@ -87,6 +98,27 @@ def _draw(axes, centres, diameters, width, label):
     beam = np.exp(-0.8 * thickness(centres, diameters, width) / np.mean(diameters))
     picture = np.round(_soft(0.1 + 0.72 * beam, 1.0) * GREYS) / GREYS
     axes.imshow(picture, cmap="gray", vmin=0, vmax=1, origin="lower", extent=(0, width, 0, width), interpolation="nearest")
+    axes.set_xticks([])
+    axes.set_yticks([])
+    axes.spines[:].set_visible(False)
+    axes.set_xlabel(label, fontsize=9)
+    scale_bar(axes, width)
+
+
+def shade_by_depth(axes, centres, radii, deepest, shift):
+    """Spheres seen along z, brighter where they are nearer; `deepest`: the largest |z| of the picture."""
+    for i in np.argsort(centres[:, 2]):  # from below
+        shade = 0.25 + 0.6 * round(DEPTHS * (centres[i, 2] / deepest + 1) / 2) / DEPTHS
+        axes.add_patch(plt.Circle(centres[i, :2] + shift, radii[i], facecolor=str(shade), edgecolor="black", lw=0.25))
+
+
+def _draw_by_depth(axes, centres, diameters, width, label):
+    low, high = centres[:, :2] - diameters[:, None] / 2, centres[:, :2] + diameters[:, None] / 2
+    shift = width / 2 - (low.min(axis=0) + high.max(axis=0)) / 2
+    shade_by_depth(axes, centres, diameters / 2, max(float(np.abs(centres[:, 2]).max()), 1e-3), shift)
+    axes.set_xlim(0, width)
+    axes.set_ylim(0, width)
+    axes.set_aspect("equal")
     axes.set_xticks([])
     axes.set_yticks([])
     axes.spines[:].set_visible(False)

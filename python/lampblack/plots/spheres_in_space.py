@@ -2,12 +2,11 @@
 
 import numpy as np
 
-from .micrographs import scale_bar
+from .micrographs import scale_bar, shade_by_depth
 from .reactor import TIMES, unit_of
 from .style import plt
 
 MOST_DRAWN = 12
-DEPTHS = 40  # shades
 
 
 def plot_spheres(results, pictures):
@@ -70,9 +69,7 @@ def _plot_micrographs(group, pictures):
     deepest = max(float(np.abs(places[:, 2]).max()), 1e-3)
     for k in range(count):
         axes, mine = panels.flat[k], np.flatnonzero(number == k)
-        for i in mine[np.argsort(places[mine, 2])]:  # from below
-            shade = 0.25 + 0.6 * round(DEPTHS * (places[i, 2] / deepest + 1) / 2) / DEPTHS
-            axes.add_patch(plt.Circle(places[i, :2] + half, radius[i], facecolor=str(shade), edgecolor="black", lw=0.25))
+        shade_by_depth(axes, places[mine], radius[mine], deepest, half)
         axes.set_title(f"{len(mine)} sphere{'' if len(mine) == 1 else 's'}", fontsize=8)
     panels[0, 0].set_xlim(0, 2 * half)
     panels[0, 0].set_ylim(0, 2 * half)

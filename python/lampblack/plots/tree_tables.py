@@ -1,5 +1,5 @@
 """Pictures of the tables of every particle, its primaries and necks: distributions, a joint one, and averages by classes of the
-diameter of collision."""
+diameter of collision; of spheres in space their fractal law."""
 
 import numpy as np
 from matplotlib.ticker import LogLocator
@@ -8,6 +8,7 @@ from .micrographs import plot_micrographs
 from .style import plt, shown_time
 
 CLASSES = 12
+FIT_FROM = 8  # primaries of a particle that counts for the fractal law
 LEAST = 5  # particles that a class has to have
 
 
@@ -31,8 +32,39 @@ def plot_tree_tables(results, pictures):
             pictures.skip(f"particles at {tables.moment}", "there are none")
             continue
         plot_micrographs(tables, pictures, f"micrographs{ending}")
+        if "gyration_radius" in tables.particles:
+            _plot_fractal_law(tables, pictures, f"fractal_law{ending}")
         _plot_distributions(tables, pictures, f"particle_distributions{ending}")
         _plot_classes(tables, pictures, f"particle_classes{ending}")
+
+
+def fractal_law(tables):
+    """Of particles of FIT_FROM primaries and more: their numbers n, R_g/a (a: mean radius of a particle's spheres), and dimension,
+    its standard error and prefactor of n = k (R_g/a)^D, by least squares of ln(R_g/a) over ln n."""
+    count = tables.particles["primaries"]
+    radius = np.bincount(tables.primaries["particle"], tables.primaries["radius"]) / count
+    several = count >= FIT_FROM
+    n, ratio = count[several], (tables.particles["gyration_radius"] / radius)[several]
+    if len(n) < 3 or n.max() < 4 * n.min():
+        return n, ratio, np.nan, np.nan, np.nan
+    (slope, constant), covariance = np.polyfit(np.log(n), np.log(ratio), 1, cov=True)
+    return n, ratio, 1 / slope, np.sqrt(covariance[0, 0]) / slope**2, np.exp(-constant / slope)
+
+
+def _plot_fractal_law(tables, pictures, name):
+    n, ratio, dimension, error, prefactor = fractal_law(tables)
+    if not np.isfinite(dimension):
+        pictures.skip(f"fractal law at {tables.moment}", f"too few particles of {FIT_FROM} primaries and more")
+        return
+    figure, axes = plt.subplots(figsize=(6.4, 4.8))
+    axes.loglog(n, ratio, ".", color="0.6", ms=3)
+    line = np.array([n.min(), n.max()])
+    axes.loglog(line, (line / prefactor) ** (1 / dimension), color="black")
+    axes.set_xlabel("primaries in a particle")
+    axes.set_ylabel("radius of gyration over mean radius of spheres")
+    axes.set_title(f"{len(n)} particles of {FIT_FROM} primaries and more at {tables.moment}:\n"
+                   f"dimension {dimension:.3f} $\\pm$ {error:.3f}, prefactor {prefactor:.2f}", fontsize=9)
+    pictures.save(figure, name)
 
 
 def _logarithmic(axes):

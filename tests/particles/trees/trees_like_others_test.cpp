@@ -157,7 +157,7 @@ TEST(TreesInSpaceLikeOthers, WithoutSinteringAreAsManyAsFractalAggregates) {
   const Sample a = summarise(ofTrees(options, 20).number), b = summarise(ofType(type, options, 20).number);
   const double error = std::hypot(a.standardError, b.standardError);
   EXPECT_LT(std::abs(a.mean - b.mean), zLimit * error);
-  EXPECT_LT(error, 0.02 * b.mean);
+  EXPECT_LT(error, 0.05 * b.mean);
 }
 
 TEST(TreesInSpaceLikeOthersLong, WithoutSinteringAreFractalAggregatesInLaw) {
