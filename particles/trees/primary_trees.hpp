@@ -19,12 +19,14 @@ class PrimaryTrees {
   using Particle = Tree;
   static constexpr bool moreThanVolume = true;
 
-  PrimaryTrees(const TreeMaterial& material, CollisionSize size, TreeShape shape = TreeShape::primaries)
+  // `sphereTolerance`: of spheres in space (TreeSpheres).
+  PrimaryTrees(const TreeMaterial& material, CollisionSize size, TreeShape shape = TreeShape::primaries,
+               double sphereTolerance = 1e-4)
       : material_(std::make_shared<TreeMaterial>(material)),
         pool_(std::make_shared<TreePool>(shape == TreeShape::spheres)),
         size_(size),
         shape_(shape) {
-    if (shape == TreeShape::spheres) spheres_ = std::make_shared<TreeSpheres>(*material_, size);
+    if (shape == TreeShape::spheres) spheres_ = std::make_shared<TreeSpheres>(*material_, size, sphereTolerance);
   }
 
   [[nodiscard]] bool bySurface() const { return shape_ == TreeShape::surfaceVolume; }

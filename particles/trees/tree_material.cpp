@@ -47,15 +47,18 @@ double SiteReactions::growthRate(double temperature, double concentration) const
 
 std::vector<std::string> TreeMaterial::species() const {
   if (const SiteReactions* r = sites()) return {r->precursor, r->product};
+  if (isGiven()) return {};
   return sootSpecies(soot()->soot);
 }
 
 std::vector<std::string> TreeMaterial::precursors() const {
   if (const SiteReactions* r = sites()) return {r->precursor};
+  if (isGiven()) return {};
   return sootPrecursors(soot()->soot);
 }
 
 bool TreeMaterial::hasPrecursors(const ParticleGas& gas) const {
+  if (isGiven()) return false;
   if (soot() != nullptr) return particles::hasPrecursors(gas);
   return gas.concentrations[0] > negligiblePrecursor * gas.pressure / (constants::gasConstant * gas.temperature);
 }
@@ -120,6 +123,17 @@ TreeMaterial sootMaterial(const SootReactions& reactions) {
   m.fractalDimension = 1.8;
   m.components = {{"C", reactions.soot.carbonWeight, {{"C", 1}}}, {"H", reactions.soot.hydrogenWeight, {{"H", 1}}}};
   m.reactions = reactions;
+  return m;
+}
+
+TreeMaterial givenMaterial(double density) {
+  TreeMaterial m;
+  m.name = "spheres";
+  m.density = density;
+  m.fractalDimension = 1.8;
+  constexpr double unit = 1e-27;  // m3
+  m.components = {{"volume", density * constants::avogadro * unit, {}}};
+  m.reactions = GivenReactions{};
   return m;
 }
 

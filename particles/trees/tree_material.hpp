@@ -72,6 +72,9 @@ struct SootReactions {
   enum Component : std::size_t { carbon, hydrogen };
 };
 
+// Nothing of the gas: births and growth are said from outside (TreeGiven).
+struct GivenReactions {};
+
 struct TreeMaterial {
   std::string name;
   double density = 0;           // kg/m3
@@ -80,10 +83,11 @@ struct TreeMaterial {
   // How much of the surface that a primary gains by growth its necks gain, 0 to 2 (eq. 30).
   double smoothing = 1;
   SinteringLaw sintering;
-  std::variant<SiteReactions, SootReactions> reactions;
+  std::variant<SiteReactions, SootReactions, GivenReactions> reactions;
 
   [[nodiscard]] const SiteReactions* sites() const { return std::get_if<SiteReactions>(&reactions); }
   [[nodiscard]] const SootReactions* soot() const { return std::get_if<SootReactions>(&reactions); }
+  [[nodiscard]] bool isGiven() const { return std::holds_alternative<GivenReactions>(reactions); }
   // For who changes a shipped material; throws std::bad_variant_access for another.
   [[nodiscard]] SiteReactions& siteReactions() { return std::get<SiteReactions>(reactions); }
 
@@ -113,5 +117,8 @@ void requireMaterial(const TreeMaterial& material);
 
 // C and H with the density and weights of these options; aggregates of the fractal dimension 1.8, which do not sinter.
 [[nodiscard]] TreeMaterial sootMaterial(const SootReactions& reactions);
+
+// Of one component whose unit is a nm3, with GivenReactions: aggregates of the fractal dimension 1.8, which do not sinter.
+[[nodiscard]] TreeMaterial givenMaterial(double density);
 
 }  // namespace lampblack::particles

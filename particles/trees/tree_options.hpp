@@ -30,6 +30,7 @@ struct TreeOptions {
   bool coagulation = true;
   double splitTolerance = 0.05;      // relative change of the population in a splitting step
   double sinteringTolerance = 1e-3;  // TreeSintering
+  double sphereTolerance = 1e-4;     // of a step of sintering of spheres in space (SphereSintering)
   double fullAt = 1e18;              // 1/m3, number density at which the sample is full first
 };
 

@@ -19,8 +19,9 @@ namespace lampblack::particles {
 
 namespace {
 
-std::variant<TreeSites, TreeSoot> reactionsOf(const PrimaryTrees& type) {
+std::variant<TreeSites, TreeSoot, TreeGiven> reactionsOf(const PrimaryTrees& type) {
   if (type.material().soot() != nullptr) return TreeSoot(type);
+  if (type.material().isGiven()) return TreeGiven(type);
   return TreeSites(type);
 }
 
@@ -28,6 +29,8 @@ const TreeOptions& checkedTrees(const TreeOptions& options) {
   requireMaterial(options.material);
   if (options.shape == TreeShape::surfaceVolume && options.material.sites() == nullptr)
     throw InputError("particles: only materials with sites are there by volume and surface");
+  if (options.material.isGiven() && options.shape != TreeShape::spheres)
+    throw InputError("particles: only spheres in space have births and growth that are given");
   if (options.particles < 8) throw InputError("particles: at least 8 numerical particles are needed");
   if (!(options.splitTolerance > 0) || !(options.splitTolerance <= 1) || !(options.fullAt > 0))
     throw InputError(
@@ -41,7 +44,7 @@ const TreeOptions& checkedTrees(const TreeOptions& options) {
 
 TreePopulation::TreePopulation(const TreeOptions& options)
     : options_(checkedTrees(options)),
-      type_(options.material, options.size, options.shape),
+      type_(options.material, options.size, options.shape, options.sphereTolerance),
       random_(options.seed, options.owner, treeStream),
       method_(type_, modelOfSample(options), InitialPopulation{}, monteCarloOfSample(options), random_),
       sintering_(type_, options.sinteringTolerance),
@@ -89,6 +92,20 @@ void TreePopulation::fill(std::span<const TreeStart> starts) {
   exchange_ = {};
 }
 
+void TreePopulation::fill(std::span<const TreeUnits> particles, double number) {
+  std::vector<Tree> trees;
+  for (const TreeUnits& units : particles) trees.push_back(type_.make(units));
+  method_.replace(trees, number / static_cast<double>(trees.size()), random_);
+  births_.startAfresh();
+  exchange_ = {};
+}
+
+void TreePopulation::setSources(const GivenSources& sources) {
+  if (!(sources.births >= 0) || !(sources.growth >= 0) || (sources.births > 0 && !(sources.nucleus > 0)))
+    throw InputError("particles: births and growth may not be negative, and what is born needs a volume");
+  std::get<TreeGiven>(reactions_).setSources(sources);
+}
+
 template <class Reactions>
 typename Reactions::Sums TreePopulation::sums(const Reactions& reactions) const {
   typename Reactions::Sums all;
@@ -97,6 +114,7 @@ typename Reactions::Sums TreePopulation::sums(const Reactions& reactions) const 
 }
 template TreeSites::Sums TreePopulation::sums(const TreeSites&) const;
 template TreeSoot::Sums TreePopulation::sums(const TreeSoot&) const;
+template TreeGiven::Sums TreePopulation::sums(const TreeGiven&) const;
 
 void TreePopulation::advance(const ParticleGas& gas, double dt) {
   if (!(dt > 0)) return;
@@ -189,6 +207,7 @@ void TreePopulation::change(Reactions& reactions, const typename Reactions::Sums
   reactions.begin(sums, dt);
   const double weight = method_.weight();
   method_.changeParticles([&](Tree& tree, double) {
+    if (callback_) callback_();
     sintering_.advanceLazily(tree, sintered);
     if (!reactions.isActive()) return true;
     const TreeFate fate = reactions.grow(tree, random_);
@@ -230,18 +249,19 @@ std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
   const SootReactions* soot = material.soot();
   const SpeciesExchanged bridge{{}, {TreeSites::product}}, molecule{{TreeSites::precursor}, {TreeSites::product}};
   const SpeciesExchanged dimers = soot != nullptr ? exchangedByDimers(soot->soot) : SpeciesExchanged{};
-  add("inceptions", "particles born", soot != nullptr ? dimers : molecule, &E::inceptions, "inception", &R::inceptions,
+  const SpeciesExchanged born = soot != nullptr ? dimers : material.sites() != nullptr ? molecule : SpeciesExchanged{};
+  add("inceptions", "particles born", born, &E::inceptions, "inception", &R::inceptions,
       &C::inceptions);
   add("coagulations", "collisions of particles", {}, &E::coagulations, "coagulation", &R::coagulations,
       &C::coagulations);
-  if (soot == nullptr) {
+  if (material.sites() != nullptr) {
     add("surface_reactions", "molecules that reacted with a site of a surface", molecule, &E::reactions,
         "surface_reaction", &R::reactions, &C::reactions);
     add("condensations", "pairs of sites that reacted within a particle", bridge, &E::condensations, "condensation",
         &R::condensations, &C::condensations);
     add("sintered_pairs", "pairs of sites that reacted as their surface sintered", bridge, &E::sinteredPairs);
-    return events;
   }
+  if (soot == nullptr) return events;
   add("condensations", "dimers or monomers of PAH that condensed on a particle", dimers, &E::dimers);
   add("growth_reactions", "molecules of C2H2 that a surface took up", exchangedByGrowth(), &E::grown);
   add("oxidations_by_o2", "molecules of O2 that oxidised a surface", exchangedByO2(), &E::oxidisedO2);

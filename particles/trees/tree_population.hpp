@@ -1,5 +1,6 @@
 // A stochastic population of trees of primaries in a given gas: inception, coagulation, sintering, and what the
-// material asks for: reactions of sites (TreeSites), or condensation, growth and oxidation of soot (TreeSoot). Equal
+// material asks for: reactions of sites (TreeSites), condensation, growth and oxidation of soot (TreeSoot), or births and
+// growth that are said from outside (TreeGiven). Equal
 // weights with doubling and contraction (EqualWeightMethod). The gas is not changed, but what is taken from it and
 // given to it is reported: the same atoms that the particles gain, to round-off.
 //
@@ -11,6 +12,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <utility>
@@ -22,6 +24,7 @@
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/stochastic/size_bins.hpp"
+#include "particles/trees/tree_given.hpp"
 #include "particles/trees/tree_options.hpp"
 #include "particles/trees/tree_sintering.hpp"
 #include "particles/trees/tree_sites.hpp"
@@ -44,7 +47,14 @@ class TreePopulation {
   // Replaces the population by such spheres, divided between numerical particles of equal weight. InputError for what
   // is not a particle.
   void fill(std::span<const TreeStart> starts);
+  // By these particles, `number` (1/m3) in all.
+  void fill(std::span<const TreeUnits> particles, double number);
   void fill(const TreeUnits& units, double number) { fill(std::vector<TreeStart>{{units, number}}); }
+  // Of a material whose reactions are given, from now on. InputError.
+  void setSources(const GivenSources& sources);
+  // advance() calls it before each event and each step. An exception of it ends advance() in an incomplete state: the
+  // population cannot be used further.
+  void setCallback(std::function<void()> callback) { callback_ = std::move(callback); }
   // Over dt (s); the gas has the concentrations of the material's species, in their order. NumericsError.
   void advance(const ParticleGas& gas, double dt);
   void dilute(double factor) {  // all numbers per volume
@@ -72,6 +82,7 @@ class TreePopulation {
   [[nodiscard]] std::vector<double> primarySizes(const SizeBins& bins) const;
   [[nodiscard]] std::vector<Tree> trees() const;
   [[nodiscard]] TreeCounters counters() const;
+  [[nodiscard]] std::uint64_t tries() const { return type_.spheres()->tries(); }  // TreeSpheres
   // Of what grows with the number of particles and primaries.
   [[nodiscard]] std::size_t bytes() const { return type_.pool().bytes() + method_.bytes(); }
 
@@ -104,7 +115,9 @@ class TreePopulation {
     TreePopulation& of;
     Reactions& reactions;
     double weight = 0;  // before the event, 1/m3
-    void look() {}
+    void look() {
+      if (of.callback_) of.callback_();
+    }
     void setTime(double time) {
       of.type_.clock() = time;
       weight = of.method_.weight();
@@ -113,7 +126,7 @@ class TreePopulation {
     template <class Process>
     void take(const Process&, bool happened);
   };
-  // Of the material's reactions, TreeSites or TreeSoot.
+  // Of the material's reactions, TreeSites, TreeSoot or TreeGiven.
   template <class Reactions>
   void march(Reactions& reactions, double dt);
   template <class Reactions>
@@ -130,7 +143,8 @@ class TreePopulation {
   Method method_;
   EvenBirths births_;
   TreeSintering sintering_;
-  std::variant<TreeSites, TreeSoot> reactions_;
+  std::variant<TreeSites, TreeSoot, TreeGiven> reactions_;
+  std::function<void()> callback_;
   std::optional<CollisionKernel> kernel_;
   TreeExchange exchange_;
   TreeCounters counters_;

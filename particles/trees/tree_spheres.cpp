@@ -12,7 +12,6 @@ namespace {
 
 constexpr double roundOff = 1e-11;      // of a volume: what sums may have lost
 constexpr double sitesInStep = 1e-9;    // of the sites, up to which they are as many as there is surface
-constexpr double sinteringStep = 1e-4;  // relative error of a step (SphereSintering)
 
 const SinteringLaw& checkedLaw(const TreeMaterial& material) {
   if (material.sintering.between == SinteringLaw::Between::parts)
@@ -24,8 +23,8 @@ const SinteringLaw& checkedLaw(const TreeMaterial& material) {
 
 }  // namespace
 
-TreeSpheres::TreeSpheres(const TreeMaterial& material, CollisionSize size)
-    : material_(material), size_(size), sintering_(checkedLaw(material), sinteringStep) {}
+TreeSpheres::TreeSpheres(const TreeMaterial& material, CollisionSize size, double sinteringTolerance)
+    : material_(material), size_(size), sintering_(checkedLaw(material), sinteringTolerance) {}
 
 void TreeSpheres::start(TreeHead& tree) {
   const double radius = 0.5 * primariesOf(&tree)->diameter;
@@ -62,17 +61,18 @@ void TreeSpheres::mergeUnits(TreePrimary* primaries) {
     const auto [stays, gone] = merges[taken_];
     for (std::size_t c = 0; c < mostTreeComponents; ++c) primaries[stays].units[c] += primaries[gone].units[c];
     std::copy(primaries + gone + 1, primaries + count, primaries + gone);
-    if (due_.size() == count) {
-      due_[stays] += due_[gone];
-      due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(gone));
-    }
     --count;
     ++merged_;
   }
 }
 
 void TreeSpheres::grow(TreePrimary* primaries) {
+  if (aggregate_.count() == 1) return settle(primaries);
   for (bool isDone = false; !isDone;) {
+    due_.assign(aggregate_.count(), 0.0);
+    for (std::size_t i = 0; i < aggregate_.count(); ++i)
+      if (const double volume = material_.volume(primaries[i].units); volume > 0)
+        due_[i] = volume - aggregate_.spheres()[i].volume;
     isDone = growth_.step(aggregate_, due_, through_);
     for (std::size_t k = aggregate_.count(); k-- > 1;) {
       const std::size_t parent = aggregate_.spheres()[k].parent;
@@ -130,21 +130,26 @@ void TreeSpheres::follow(TreeHead& tree) {
   load(tree, aggregate_);
   taken_ = 0;
   TreePrimary* primaries = primariesOf(&tree);
-  due_.assign(tree.count, 0.0);
-  for (std::size_t i = 0; i < tree.count; ++i)
-    if (const double volume = material_.volume(primaries[i].units); volume > 0)
-      due_[i] = volume - aggregate_.spheres()[i].volume;
-  if (tree.count == 1)
-    settle(primaries);
-  else
-    grow(primaries);
+  grow(primaries);
+  store(aggregate_, tree);
+}
+
+void TreeSpheres::cover(TreeHead& tree, double thickness) {
+  load(tree, aggregate_);
+  taken_ = 0;
+  TreePrimary* primaries = primariesOf(&tree);
+  growEverywhere(aggregate_, thickness);
+  mergeUnits(primaries);
+  const double unit = material_.volume({1});
+  for (std::size_t i = 0; i < aggregate_.count(); ++i)
+    primaries[i].units[0] += (aggregate_.spheres()[i].volume - material_.volume(primaries[i].units)) / unit;
+  settle(primaries);
   store(aggregate_, tree);
 }
 
 double TreeSpheres::sinter(TreeHead& tree, double temperature, double time) {
   load(tree, aggregate_);
   taken_ = 0;
-  due_.clear();
   TreePrimary* primaries = primariesOf(&tree);
   const SiteReactions* sites = material_.sites();
   double number = 0, pairs = 0;
@@ -156,19 +161,14 @@ double TreeSpheres::sinter(TreeHead& tree, double temperature, double time) {
   settle(primaries);
   // Sites take volume along, and the surface shrinks with it.
   for (double gone; number > 0 && (gone = number - density * aggregate_.surface()) > sitesInStep * number;) {
-    due_.assign(aggregate_.count(), 0.0);
     for (std::size_t i = 0; i < aggregate_.count(); ++i) {
       const double taken = primaries[i].units[sites->site] * (gone / number);
       primaries[i].units[sites->site] -= taken;
       primaries[i].units[sites->bridge] += 0.5 * taken;
       pairs += 0.5 * taken;
-      due_[i] = -taken * material_.volumeOfSite();
     }
     number -= gone;
-    if (aggregate_.count() == 1)
-      settle(primaries);
-    else
-      grow(primaries);
+    grow(primaries);
   }
   store(aggregate_, tree);
   return pairs;
@@ -183,7 +183,6 @@ double TreeSpheres::sinteringRate(const TreeHead& tree, double temperature) {
 void TreeSpheres::fuse(TreeHead& tree, std::size_t k) {
   load(tree, aggregate_);
   taken_ = 0;
-  due_.clear();
   aggregate_.mergeWithParent(k + 1);
   mergeUnits(primariesOf(&tree));
   settle(primariesOf(&tree));
@@ -194,7 +193,6 @@ void TreeSpheres::fuse(TreeHead& tree, std::size_t k) {
 void TreeSpheres::close(TreeHead& tree) {
   load(tree, aggregate_);
   taken_ = 0;
-  due_.clear();
   settle(primariesOf(&tree));
   aggregate_.place();
   store(aggregate_, tree);

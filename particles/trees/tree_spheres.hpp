@@ -23,7 +23,8 @@ namespace lampblack::particles {
 class TreeSpheres {
  public:
   // `material` has to stay. InputError for a law of sintering that spheres do not have.
-  TreeSpheres(const TreeMaterial& material, CollisionSize size);
+  // `sinteringTolerance`: relative error of a step (SphereSintering).
+  TreeSpheres(const TreeMaterial& material, CollisionSize size, double sinteringTolerance);
 
   // A tree of one primary.
   static void start(TreeHead& tree);
@@ -33,6 +34,8 @@ class TreeSpheres {
   // each. Volume that moves through necks takes units along, and what is swallowed merges. Primaries without units have
   // no size, and their spheres stay for who takes them away.
   void follow(TreeHead& tree);
+  // A layer of a thickness (m) on all of the free surface, of the first component.
+  void cover(TreeHead& tree, double thickness);
   // Over a time (s) at a temperature (K). Of sites as many stay as there is surface. Returns pairs of them that went.
   double sinter(TreeHead& tree, double temperature, double time);
   // m2/s of surface that goes.
@@ -52,9 +55,9 @@ class TreeSpheres {
  private:
   static void load(const TreeHead& tree, SphereAggregate& to);
   static void store(const SphereAggregate& from, TreeHead& tree);
-  // Of the spheres in aggregate_ and these primaries, due_ being what their surfaces gain.
+  // The spheres in aggregate_ get the volumes of these primaries.
   void grow(TreePrimary* primaries);
-  // The radii of volumes that have another than their spheres.
+  // What round-off, or contacts that are lost, have left of that: radii alone.
   void settle(TreePrimary* primaries);
   void mergeUnits(TreePrimary* primaries);
   [[nodiscard]] double radiusOf(std::size_t i, double volume);

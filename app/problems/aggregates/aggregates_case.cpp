@@ -74,7 +74,8 @@ void addBuild(DeckSchema& schema) {
       .add(
           choiceKey("build.collision_size", {"shadow", "fractal"},
                     "Diameter of collision. shadow: of the sphere with the mean projected area; fractal: mean diameter "
-                    "of spheres times n^(1/D), D the key fractal_dimension.")
+                    "of the spheres' volumes times n^(1/D), D the key fractal_dimension, n = S^3/(36 pi V^2) of so many "
+                    "equal spheres in point contact.")
               .byDefault("shadow")
               .onlyWith("build.by", inGas))
       .add(numberKey("build.fractal_dimension", "D of the diameter of collision.")
@@ -167,7 +168,7 @@ std::vector<double> readTimes(const Deck& deck) {
 }
 
 void readPopulation(const Deck& deck, AggregatesCase& made) {
-  SpherePopulationOptions& options = made.population;
+  TreeOptions& options = made.population;
   options.particles = deck.integer<std::size_t>("build.sample");
   options.fullAt = deck.quantity("build.expected_number");
   const std::string kernel = deck.choice("build.kernel");
@@ -176,8 +177,8 @@ void readPopulation(const Deck& deck, AggregatesCase& made) {
                                                      : CollisionKernelType::continuum;
   options.kernel.enhancement = deck.number("build.van_der_waals");
   if (deck.choice("build.collision_size") == "fractal") {
-    options.size = SphereCollisionSize::fractal;
-    options.fractalDimension = deck.number("build.fractal_dimension");
+    options.size = CollisionSize::primaries;
+    options.material.fractalDimension = deck.number("build.fractal_dimension");
   }
   options.splitTolerance = deck.number("build.split_tolerance");
   made.number = deck.quantity("build.number");
@@ -236,14 +237,17 @@ AggregatesCase readAggregatesCase(const Deck& deck) {
   const auto density = deck.optionalQuantity("spheres.density");
   if (!isSilica && !density) throw deck.error("spheres", "a material that is not silica needs the key 'density'");
   const TreeMaterial shipped = isSilica ? silica() : TreeMaterial{};
-  SpherePopulationOptions& options = made.population;
-  options.density = density.value_or(shipped.density);
+  TreeOptions& options = made.population;
+  options.material = givenMaterial(density.value_or(shipped.density));
+  options.shape = TreeShape::spheres;
+  options.size = CollisionSize::shadow;
+  SinteringLaw& law = options.material.sintering;
   const bool hasGas = deck.has("gas"), sinters = deck.has("sintering") || isSilica;
-  options.sintering = readSinteringLaw(deck, "sintering", shipped.sintering);
-  requirePrefactor(deck, "sintering", options.sintering);
-  if (deck.has("sintering") && !options.sintering.active() && !deck.has("sintering.mechanism"))
+  law = readSinteringLaw(deck, "sintering", shipped.sintering);
+  requirePrefactor(deck, "sintering", law);
+  if (deck.has("sintering") && !law.active() && !deck.has("sintering.mechanism"))
     throw deck.error("sintering", "a material that is not silica needs the key 'mechanism'");
-  if (deck.has("sintering")) options.sinteringTolerance = deck.number("sintering.tolerance");
+  if (deck.has("sintering")) options.sphereTolerance = deck.number("sintering.tolerance");
   const std::string by = deck.choice("build.by");
   made.times = readTimes(deck);
   if (by != inGas[0]) {
@@ -264,7 +268,7 @@ AggregatesCase readAggregatesCase(const Deck& deck) {
   if (hasGas) made.gas = readGas(deck);
   if (!hasGas && deck.has("sintering"))
     throw deck.error("sintering", "it takes place in a gas; give the section 'gas'");
-  if (!sinters) options.sintering = {};
+  if (!sinters) law = {};
   const bool hasBirths = std::ranges::any_of(made.gas.births, [](double rate) { return rate > 0; });
   if (hasBirths && by != inGas[0]) throw deck.error("gas", "particles are born only where build.by is 'collisions'");
   if (hasBirths != deck.has("gas.birth_diameter"))

@@ -9,7 +9,7 @@
 #include "app/problems/aggregates/aggregates_gas.hpp"
 #include "core/modules.hpp"
 #include "io/deck.hpp"
-#include "particles/spheres/sphere_population.hpp"
+#include "particles/trees/tree_options.hpp"
 
 namespace lampblack::app {
 
@@ -23,7 +23,7 @@ struct AggregatesCase {
   double radius = 0, deviation = 1;  // m, median of the spheres at the start, geometric standard deviation
   std::size_t doublings = 0, spheres = 0, aggregates = 0;
   double number = 0;  // 1/m3, of spheres at the start, of collisions
-  SpherePopulationOptions population;
+  TreeOptions population;  // also of the law of sintering
   AggregatesGas gas;
   double birthDiameter = 0;   // m
   std::vector<double> times;  // s, of rows: the first is zero

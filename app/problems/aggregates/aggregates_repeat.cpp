@@ -10,6 +10,9 @@
 #include "particles/population/monte_carlo/initial_sample.hpp"
 #include "particles/spheres/sphere_geometry.hpp"
 #include "particles/spheres/sphere_growth.hpp"
+#include "particles/spheres/sphere_measures.hpp"
+#include "particles/spheres/sphere_sintering.hpp"
+#include "particles/trees/tree_population.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -135,7 +138,7 @@ void throughTime(const AggregatesCase& made, std::size_t row, const F& f) {
 
 // Aggregates that were built grow and sinter, half of the growth before and half behind.
 void treat(const AggregatesCase& made, std::vector<SphereAggregate>& all, Rows& rows) {
-  SphereSintering sintering(made.population.sintering, made.population.sinteringTolerance);
+  SphereSintering sintering(made.population.material.sintering, made.population.sphereTolerance);
   double merged = 0;
   for (std::size_t row = 1; row < made.times.size(); ++row) {
     throughTime(made, row, [&](double middle, double length) {
@@ -181,39 +184,39 @@ void build(const AggregatesCase& made, std::uint64_t repeat, std::vector<SphereA
 }
 
 void collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::vector<SphereAggregate>& last) {
-  SpherePopulationOptions options = made.population;
+  TreeOptions options = made.population;
   options.seed = made.seed;
   options.owner = repeat;
-  SpherePopulation population(options);
+  TreePopulation population(options);
   population.setCallback(requireGoingOn);
-  if (made.number > 0) population.fill(drawRadii(made, repeat, options.particles), made.number);
-  std::vector<SphereParticle> kept;
+  const double unit = options.material.volume({1});
+  if (made.number > 0) {
+    std::vector<TreeUnits> spheres;
+    for (const double radius : drawRadii(made, repeat, options.particles))
+      spheres.push_back({volumeOfRadius(radius) / unit});
+    population.fill(spheres, made.number);
+  }
   const auto addRow = [&] {
-    kept.clear();
-    population.forEach([&](const SphereParticle& p) { kept.push_back(p); });
-    std::vector<const SphereAggregate*> places;
-    PopulationNumbers numbers{.number = population.weight() * static_cast<double>(population.size()),
-                              .collisionDiameter = 0,
-                              .merged = static_cast<double>(population.merged())};
-    for (const SphereParticle& p : kept) {
-      places.push_back(p.aggregate.get());
-      numbers.collisionDiameter += p.collision / static_cast<double>(kept.size());
-    }
-    if (population.collisions() > 0)
-      numbers.tries = static_cast<double>(population.tries()) / static_cast<double>(population.collisions());
-    rows.add(places, numbers);
+    population.applyDeferred();
+    last.clear();
+    const TreeTotals totals = population.totals();
+    PopulationNumbers numbers{.number = totals.number,
+                              .collisionDiameter = totals.collisionDiameter,
+                              .merged = static_cast<double>(population.counters().fused)};
+    population.forEachTree([&](const Tree& tree, double) { last.emplace_back().copy(tree.spheres()); });
+    if (const auto collisions = population.counters().coagulations; collisions > 0)
+      numbers.tries = static_cast<double>(population.tries()) / static_cast<double>(collisions);
+    rows.add(placesOf(last), numbers);
   };
   addRow();
   for (std::size_t row = 1; row < made.times.size(); ++row) {
     throughTime(made, row, [&](double middle, double length) {
       const double d = made.birthDiameter;
-      const SphereSources sources{made.gas.birthsAt(middle), d > 0 ? volumeOfRadius(0.5 * d) : 0,
-                                  made.gas.growthAt(middle)};
-      population.advance(made.gas.at(middle), sources, length);
+      population.setSources({made.gas.birthsAt(middle), d > 0 ? volumeOfRadius(0.5 * d) : 0, made.gas.growthAt(middle)});
+      population.advance({made.gas.at(middle), {}}, length);
     });
     addRow();
   }
-  for (const SphereParticle& p : kept) last.push_back(*p.aggregate);
 }
 
 }  // namespace

@@ -44,6 +44,15 @@ void expectInStep(const PrimaryTrees& type, const Tree& tree, double tolerance =
     EXPECT_EQ(tree.necks()[i - 1].left, tree.spheres()[i].parent);
   }
   EXPECT_NEAR(tree.head().surface / aggregateOf(tree).surface(), 1, 1e-13);
+  EXPECT_EQ(tree.spheres()[0].neck, 0);
+  EXPECT_EQ(tree.spheres()[0].parent, 0U);
+}
+
+std::vector<double> volumesOf(const Tree& tree) {
+  std::vector<double> all;
+  for (const AggregateSphere& s : tree.spheres()) all.push_back(s.volume);
+  std::ranges::sort(all);
+  return all;
 }
 
 Tree randomTree(const PrimaryTrees& type, std::size_t count, std::uint64_t seed) {
@@ -232,9 +241,19 @@ TEST(TreeSpheres, TellHowFastTheirSurfaceGoes) {
   TreeSintering::Changes changes;
   sintering.advance(tree, 0.05, changes);
   ASSERT_EQ(tree.count(), 5U);
+  std::vector<double> sums;
+  std::vector<SphereSurfaces> surfaces;
+  type.spheres()->sumSurfaces(tree.head(), sums);
+  aggregateOf(tree).surfaces(surfaces);
+  for (std::size_t i = 1; i < 5; ++i) EXPECT_NEAR((sums[i] - sums[i - 1]) / surfaces[i].free, 1, 1e-10);
+  EXPECT_NEAR(sums[4] / tree.head().surface, 1, 1e-12);
   const double rate = tree.head().sintering, before = tree.head().surface;
   sintering.advance(tree, 0.05 + 1e-5, changes);
   EXPECT_NEAR((before - tree.head().surface) / 1e-5 / rate, 1, 1e-3);
+  TreeSintering lazy(type, 1e-3);
+  lazy.setTemperature(1173);
+  lazy.advance(tree, 0.06, changes);
+  EXPECT_NEAR(tree.head().rest * tree.head().sintering / tree.head().surfaces, 1e-3, 1e-12);
 }
 
 // Sites stay as dense as they were, two of those that go are a bridge, and the primaries have their mass no more.
@@ -305,8 +324,11 @@ TEST(TreeSpheres, HangTogetherOverBurntOnes) {
       count += part.count();
     }
     EXPECT_EQ(count, 8U);
+    std::vector<double> there = volumesOf(tree);
+    there.erase(there.begin());
     joinOverBurnt(type, tree);
-    EXPECT_EQ(tree.count(), 8U);
+    ASSERT_EQ(tree.count(), 8U);
+    for (std::size_t i = 0; i < 8; ++i) EXPECT_NEAR(volumesOf(tree)[i] / there[i], 1, 1e-12);
     expectInStep(type, tree);
     expectSameUnits(sumOfUnits(tree), all);
   }
@@ -343,6 +365,10 @@ TEST(TreeSpheres, GrowAndSinterAlikeInAnyDirection) {
 TEST(TreeSpheres, ArePackedAsTheyAre) {
   const PrimaryTrees type = inSpace(sinteringSilica(true), CollisionSize::shadow);
   Tree tree = randomTree(type, 7, 13);
+  TreeSintering sintering(type, 0);
+  sintering.setTemperature(1173);
+  TreeSintering::Changes changes;
+  sintering.advance(tree, 1e-3, changes);
   std::vector<double> row;
   packTree(tree, 1e10, type.material(), row);
   const Tree again = unpackTree(row, type.pool(), type.material());
