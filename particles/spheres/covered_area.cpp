@@ -41,7 +41,7 @@ double coveredArea(std::span<const RigidSphere> discs) {
       if (square >= both * both) return;
       const double apart = std::sqrt(square), more = sorted[j].radius - disc.radius;
       if (apart <= more) {  // of two that are the same the first one counts
-        isHidden = isHidden || apart < more || j < i;
+        isHidden = isHidden || more > 0 || j < i;
         return;
       }
       if (apart <= -more) return;

@@ -258,7 +258,7 @@ void TreeSintering::advance(Tree& tree, double time, Changes& changes, bool isMe
     if (law.active()) changes.bridges += spheres->sinter(tree.own(), T_, dt);
     changes.fused += spheres->takeMerged();
     TreeHead& head = tree.own();
-    if (law.active() || !isMeasured) type_.measure(head);
+    if (law.active()) type_.measure(head);
     rest(head, std::max(time, head.time));
     tree.fit();
     return;

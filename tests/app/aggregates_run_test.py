@@ -13,7 +13,6 @@ import time
 
 import running
 
-h5py = running.package("h5py")
 np = running.package("numpy")
 
 DECK = """problem: aggregates
@@ -33,19 +32,6 @@ time: {end: 20 ms, outputs: 4}
 repeats: 2
 """
 TABLE = "time [ms],temperature [K],pressure [atm],births [1/m^3/s],growth [nm/s]\n0,1500,1,1e19,0\n10,1500,1,1e19,0\n11,1400,1,0,100\n"
-
-
-def datasets(path: pathlib.Path) -> dict:
-    found = {}
-    with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
-    return found
-
-
-def run(program, deck, out, *more, code=0):
-    result = program("run", deck, "--out", out, *more)
-    assert result.code == code, f"{program.ranks} ranks: {result}"
-    return result
 
 
 def check_numbers(data: dict) -> None:
@@ -74,8 +60,8 @@ def check_numbers(data: dict) -> None:
 def check_collisions(program, folder: pathlib.Path) -> None:
     (folder / "gas.csv").write_text(TABLE, encoding="utf-8")
     (folder / "collisions.yaml").write_text(COLLISIONS, encoding="utf-8")
-    run(program, folder / "collisions.yaml", folder / "collisions")
-    data = datasets(folder / "collisions/results.h5")
+    running.run_deck(program, folder / "collisions.yaml", folder / "collisions")
+    data = running.datasets(folder / "collisions/results.h5")
     volume = data["history/number"] * data["history/volume"]
     born = 4 / 3 * np.pi * (2e-9) ** 3 * 1e19 * np.array([5e-3, 10e-3])
     assert np.allclose(volume[1:3], born, rtol=0.15), volume[1:3] / born
@@ -106,9 +92,9 @@ def main(executable: str, *mpiexec: str) -> None:
         deck.write_text(DECK, encoding="utf-8")
         runs = {}
         for ranks in (1, 2):
-            result = run(running.Program(executable, list(mpiexec), ranks), deck, folder / str(ranks))
+            result = running.run_deck(running.Program(executable, list(mpiexec), ranks), deck, folder / str(ranks))
             assert not result.err, result.err
-            runs[ranks] = datasets(folder / str(ranks) / "results.h5")
+            runs[ranks] = running.datasets(folder / str(ranks) / "results.h5")
         different = [name for name in runs[1] if runs[1][name].tobytes() != runs[2][name].tobytes()]
         assert not different, f"2 ranks: other numbers than on one in {different}"
         check_numbers(runs[1])

@@ -16,7 +16,6 @@ import time
 
 import running
 
-h5py = running.package("h5py")
 np = running.package("numpy")
 
 # All processes of the edge: 20000 runs would be within 3.3 standard errors of the master equation of docs/theory/pah.md.
@@ -33,19 +32,6 @@ output: {interval: 1 us, spectra: [2 us]}
 EXACT = {"carbon": 18.32999742, "hydrogen": 10.93821240, "six_rings": 4.51672391, "five_rings": 0.17916860}
 LEFT, FOUR_RINGS = 1.311775e-2, 0.50457845
 MECHANISM = running.SOURCE / "cases/mechanisms/ethylene_bisetti2012_47.yaml"
-
-
-def datasets(path: pathlib.Path) -> dict:
-    found = {}
-    with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
-    return found
-
-
-def run(program, deck, out, *more, code=0):
-    result = program("run", deck, "--out", out, *more)
-    assert result.code == code, f"{program.ranks} ranks: {result}"
-    return result
 
 
 def results_of(out: pathlib.Path) -> dict:
@@ -99,18 +85,18 @@ def check_numbers(data: dict, out: pathlib.Path) -> None:
 def check_restarts(executable: str, mpiexec: list, folder: pathlib.Path, deck: pathlib.Path) -> None:
     one, two = (running.Program(executable, mpiexec, ranks) for ranks in (1, 2))
     part, whole = folder / "part", folder / "whole"
-    run(two, deck, part, *running.settings("repeats=300", "checkpoint.at_end=true"))
+    running.run_deck(two, deck, part, *running.settings("repeats=300", "checkpoint.at_end=true"))
     assert [file.name for file in (part / "checkpoint").iterdir()] == ["step_000300.h5"]
-    result = run(one, deck, part, "--restart", *running.settings("repeats=700"))
+    result = running.run_deck(one, deck, part, "--restart", *running.settings("repeats=700"))
     assert "continues from" in result.out and "300 molecules" in result.out, result.out
-    run(one, deck, whole, *running.settings("repeats=700"))
-    different = differing(datasets(part / "results.h5"), datasets(whole / "results.h5"))
+    running.run_deck(one, deck, whole, *running.settings("repeats=700"))
+    different = differing(running.datasets(part / "results.h5"), running.datasets(whole / "results.h5"))
     assert not different, f"after a restart: other numbers in {different}"
     assert results_of(part) == results_of(whole)
     for setting, message in (("molecule.name=coronene", "of another molecule"), ("gas.temperature=1600 K", "of another gas, rates or rows"),
                              ("seed=2", "of another seed"), ("repeats=200", "more than 'repeats: 200'"),
                              ("output.spectra=[3 us]", "of another gas, rates or rows")):
-        result = run(one, deck, part, "--restart", *running.settings("repeats=700", setting), code=2)
+        result = running.run_deck(one, deck, part, "--restart", *running.settings("repeats=700", setting), code=2)
         assert message in result.err, result.err
 
     # A signal: what had ended is kept.
@@ -126,9 +112,9 @@ def check_restarts(executable: str, mpiexec: list, folder: pathlib.Path, deck: p
         _, err = running_one.communicate(timeout=60)
     assert running_one.returncode == 128 + signal.SIGTERM, err
     done = int(re.search(r"after (\d+) molecules", err).group(1))
-    run(two, deck, stopped, "--restart", *running.settings(f"repeats={done + 100}"))
-    run(two, deck, folder / "left_alone", *running.settings(f"repeats={done + 100}"))
-    different = differing(datasets(stopped / "results.h5"), datasets(folder / "left_alone" / "results.h5"))
+    running.run_deck(two, deck, stopped, "--restart", *running.settings(f"repeats={done + 100}"))
+    running.run_deck(two, deck, folder / "left_alone", *running.settings(f"repeats={done + 100}"))
+    different = differing(running.datasets(stopped / "results.h5"), running.datasets(folder / "left_alone" / "results.h5"))
     assert not different, f"after a signal: other numbers in {different}"
 
 
@@ -141,19 +127,19 @@ def check_table(program, folder: pathlib.Path, data: dict) -> None:
         deck = folder / f"{name}.yaml"
         deck.write_text(f"problem: pah\nmechanism: {MECHANISM}\nmolecule: {{name: pyrene, most_rings: 7}}\n"
                         f"gas: {{file: {name}.csv}}\nrepeats: 2000\noutput: {{interval: 1 us, spectra: [2 us]}}\n", encoding="utf-8")
-        run(program, deck, folder / name)
-    same, hotter = (datasets(folder / name / "results.h5") for name in ("same", "hotter"))
+        running.run_deck(program, deck, folder / name)
+    same, hotter = (running.datasets(folder / name / "results.h5") for name in ("same", "hotter"))
     assert np.allclose(same["history/carbon"], data["history/carbon"], rtol=1e-3), "a table of a constant gas"
     assert hotter["history/events_G6R_FE"][-1] > 1.3 * same["history/events_G6R_FE"][-1]
     assert abs(hotter["history/temperature"][-1] - 1800) < 1e-9
 
     (folder / "rates.yaml").write_text("growth_free_edge: [0, 0, 0]\ngrowth_zigzag: [0, 0, 0]\n", encoding="utf-8")
-    run(program, folder / "deck.yaml", folder / "none", *running.settings("rates.file=rates.yaml", "repeats=50"))
-    none = datasets(folder / "none" / "results.h5")
+    running.run_deck(program, folder / "deck.yaml", folder / "none", *running.settings("rates.file=rates.yaml", "repeats=50"))
+    none = running.datasets(folder / "none" / "results.h5")
     assert none["history/carbon"][-1] <= 16 and none["rates/G6R_FE"][0] == 0 and none["rates/G6R_AC"][0] > 0
-    run(program, folder / "deck.yaml", folder / "again", *running.settings(
+    running.run_deck(program, folder / "deck.yaml", folder / "again", *running.settings(
         "rates.file=rates.yaml", "rates.growth_free_edge=[1.1e7, 1.71, 3.9, 3.3e33, -5.7, 25.5]", "repeats=50"))
-    assert datasets(folder / "again" / "results.h5")["rates/G6R_FE"][0] == data["rates/G6R_FE"][0], "the deck's numbers come first"
+    assert running.datasets(folder / "again" / "results.h5")["rates/G6R_FE"][0] == data["rates/G6R_FE"][0], "the deck's numbers come first"
 
 
 def main(executable: str, *mpiexec: str) -> None:
@@ -164,9 +150,9 @@ def main(executable: str, *mpiexec: str) -> None:
         runs = {}
         for ranks in (1, 3):
             program = running.Program(executable, list(mpiexec), ranks)
-            result = run(program, deck, folder / str(ranks))
+            result = running.run_deck(program, deck, folder / str(ranks))
             assert not result.err, result.err
-            runs[ranks] = datasets(folder / str(ranks) / "results.h5")
+            runs[ranks] = running.datasets(folder / str(ranks) / "results.h5")
         different = differing(runs[1], runs[3])
         assert not different, f"3 ranks: other numbers than on one in {different}"
         check_numbers(runs[1], folder / "1")

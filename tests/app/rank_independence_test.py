@@ -14,7 +14,6 @@ import tempfile
 
 import running
 
-h5py = running.package("h5py")
 meshio = running.package("meshio")
 np = running.package("numpy")
 
@@ -31,13 +30,6 @@ OWN = ("owner", "imbalance_before", "imbalance_after", "pressure_iterations", "s
        "mass_fraction_sum_error", "minimum_mass_fraction", "undershoot")
 
 
-def datasets(path: pathlib.Path) -> dict:
-    found = {}
-    with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
-    return found
-
-
 def run(executable: str, mpiexec: list, ranks: int, folder: pathlib.Path) -> dict:
     program = running.Program(executable, mpiexec, ranks)
     result = program("run", DECK, *running.settings(*SETTINGS), "--out", folder, timeout=300)
@@ -46,7 +38,7 @@ def run(executable: str, mpiexec: list, ranks: int, folder: pathlib.Path) -> dic
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
     assert record["status"] == "done" and record["message"] == "" and record["ranks"] == ranks, record
     assert not (folder / "results.h5.part").exists()
-    return datasets(folder / "results.h5")
+    return running.datasets(folder / "results.h5")
 
 
 def check_history(data: dict, ranks: int) -> None:

@@ -41,16 +41,9 @@ def tables(out):
     return {path.name: path.read_text("utf-8") for path in (out / "tables").glob("*.csv")}
 
 
-def datasets(path):
-    found = {}
-    with h5py.File(path, "r") as file:
-        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
-
-
 def assert_equal(out, reference, but=()):
     """The same to the last bit: results, history, and the description of the results."""
-    found, expected = datasets(out / "results.h5"), datasets(reference / "results.h5")
+    found, expected = running.datasets(out / "results.h5"), running.datasets(reference / "results.h5")
     assert found.keys() == expected.keys(), found.keys() ^ expected.keys()
     different = [name for name in expected if name not in but and found[name].tobytes() != expected[name].tobytes()]
     assert not different, f"{out.name} differs from {reference.name} in {different}"
@@ -61,7 +54,7 @@ def assert_equal(out, reference, but=()):
 
 def largest_difference(out, reference):
     """Of the last fields, relative to the largest value of each."""
-    found, expected = datasets(out / "results.h5"), datasets(reference / "results.h5")
+    found, expected = running.datasets(out / "results.h5"), running.datasets(reference / "results.h5")
     assert found.keys() == expected.keys(), found.keys() ^ expected.keys()
     last = max(name for name in expected if name.startswith("steps/")).rsplit("/", 1)[0]
     worst = ("", 0.0)

@@ -237,6 +237,21 @@ class Server:
                 self.folder = None
 
 
+def datasets(path) -> dict:
+    """All of a file of results, by name."""
+    h5py = package("h5py")
+    found = {}
+    with h5py.File(path, "r") as file:
+        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def run_deck(program, deck, out, *more, code=0):
+    result = program("run", deck, "--out", out, *more)
+    assert result.code == code, f"{program.ranks} ranks: {result}"
+    return result
+
+
 def differs_from_check(program: Program, result: Result, deck, *arguments) -> list:
     """Problems where `check` does not refuse a deck as a run did: the same exit code and message, nothing else."""
     checked = program("check", deck, *arguments)

@@ -10,18 +10,10 @@ import tempfile
 
 import running
 
-h5py = running.package("h5py")
 
 KERNEL = pathlib.Path(__file__).with_name("kernel.yaml")
 # A flame with soot, whose particles are shared as well, and a kernel that ignites, in cells of every kind.
 CASES = {"flame": ("time.end=10 us", "mesh.refinement=1.5"), "kernel": ("mesh.refinement=0.5", "time.end=20 us")}
-
-
-def datasets(path):
-    found = {}
-    with h5py.File(path, "r") as file:
-        file.visititems(lambda name, item: found.update({name: item[()]}) if isinstance(item, h5py.Dataset) else None)
-    return found
 
 
 def check(program, folder, name, deck):
@@ -32,7 +24,7 @@ def check(program, folder, name, deck):
         assert done.code == 0, done
         table = done.out[done.out.index("Load imbalance, busiest rank / average"):]
         assert "chemistry" in table, table
-        results[share] = datasets(out / "results.h5")
+        results[share] = running.datasets(out / "results.h5")
     shared, apart = results["true"], results["false"]
     assert shared.keys() == apart.keys(), shared.keys() ^ apart.keys()
     different = [key for key in shared if shared[key].tobytes() != apart[key].tobytes()]

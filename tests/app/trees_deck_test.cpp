@@ -84,6 +84,18 @@ TEST(TreesDeck, SilicaAsATableIsSilica) {
   }
 }
 
+TEST(TreesDeck, PrimariesAreSpheresInSpaceWhereItSaysSo) {
+  const std::string silica = "silica_teos_29.yaml", spheres = "  material: silica\n  geometry: spheres\n";
+  const TreeOptions options = requestOf(silica, spheres + "  collision_size: shadow\n").options;
+  EXPECT_EQ(options.shape, TreeShape::spheres);
+  EXPECT_EQ(options.size, CollisionSize::shadow);
+  EXPECT_EQ(requestOf(silica, "  material: silica\n").options.shape, TreeShape::primaries);
+  EXPECT_THAT(messageOf([&] { (void)requestOf(silica, "  material: silica\n  collision_size: shadow\n"); }),
+              testing::HasSubstr("only particles with 'geometry: spheres' have a shadow"));
+  EXPECT_THAT(messageOf([&] { (void)requestOf(silica, spheres + "  sintering: {size: volume_to_surface}\n"); }),
+              testing::HasSubstr("the size is that of the 'smaller'"));
+}
+
 TEST(TreesDeck, SootHasThePhysicsOfItsModels) {
   const std::string soot =
       "  pah: [A2, A4]\n  density: 1700 kg/m^3\n  van_der_waals: 2\n  slip: air\n  oxidation: false\n";

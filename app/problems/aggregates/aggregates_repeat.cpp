@@ -26,7 +26,8 @@ void requireGoingOn() {
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
 // What random numbers are for: RandomStream.
-constexpr std::uint32_t buildPurpose = 0x61676772, shadowPurpose = 0x73686164, radiusPurpose = 0x72616469;
+constexpr std::uint32_t buildPurpose = 0x61676772, shadowPurpose = 0x73686164, radiusPurpose = 0x72616469,
+                        drawPurpose = 0x64726177;
 
 // What a population says besides its aggregates.
 struct PopulationNumbers {
@@ -126,12 +127,19 @@ std::vector<const SphereAggregate*> placesOf(const std::vector<SphereAggregate>&
   return places;
 }
 
-// Between rows, cut where the table of the gas has one. f(time, length) of each part.
+// Relative change of the temperature over which a gas is as in the middle: of sintering with an activation of 1.2e5 K
+// at 1500 K by 17 %, whose mean is 0.1 % off.
+constexpr double slowlyHotter = 0.002;
+
+// Between rows, cut where the table of the gas has one, and where it gets hotter or colder. f(time, length) of each
+// part.
 template <class F>
 void throughTime(const AggregatesCase& made, std::size_t row, const F& f) {
   for (double now = made.times[row - 1]; now < made.times[row];) {
     const double next = std::min(made.times[row], made.gas.nextChange(now));
-    f(0.5 * (now + next), next - now);
+    const double change = std::abs(std::log(made.gas.at(next).temperature / made.gas.at(now).temperature));
+    const double parts = std::max(1.0, std::ceil(change / slowlyHotter)), length = (next - now) / parts;
+    for (double k = 0; k < parts; ++k) f(now + (k + 0.5) * length, length);
     now = next;
   }
 }
@@ -268,7 +276,11 @@ void runAggregates(const AggregatesCase& made, std::uint64_t repeat, std::span<d
     return;
   }
   if (last == nullptr) return;
-  all.resize(std::min(all.size(), made.drawn));
+  // Some at random: a population has its particles in an order that means something.
+  RandomStream random(made.seed, repeat, drawPurpose);
+  const std::size_t drawn = std::min(all.size(), made.drawn);
+  for (std::size_t k = 0; k < drawn; ++k) std::swap(all[k], all[k + random.below(all.size() - k)]);
+  all.resize(drawn);
   *last = std::move(all);
 }
 

@@ -60,6 +60,8 @@ TEST(SphereMeasures, AreasOfDiscs) {
   const double pi = constants::pi;
   EXPECT_NEAR(coveredArea(std::vector<RigidSphere>{{{3, 4, 0}, 2}}), 4 * pi, 1e-12);
   EXPECT_NEAR(coveredArea(std::vector<RigidSphere>{{{3, 4, 0}, 2}, {{3, 4, 7}, 2}, {{3.5, 4, 0}, 1}}), 4 * pi, 1e-12);
+  for (const double side : {-1, 1})  // touching from within
+    EXPECT_NEAR(coveredArea(std::vector<RigidSphere>{{{0, 0, 0}, 2}, {{side, 0, 5}, 1}}), 4 * pi, 1e-12);
   // Two whose centres lie on each other's edge.
   const double lens = 2 * pi / 3 - std::sqrt(3) / 2;
   EXPECT_NEAR(coveredArea(std::vector<RigidSphere>{{{0, 0, 0}, 1}, {{0, 1, 0}, 1}}), 2 * pi - lens, 1e-12);
