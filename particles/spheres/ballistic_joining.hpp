@@ -54,8 +54,8 @@ class BallisticJoining {
   std::uint64_t tries_ = 0;
 };
 
-// The spheres of an aggregate from one of them on, each behind the one that it is joined to; the place of that one among
-// them, and the sphere of the aggregate that has their neck.
+// The spheres of an aggregate from one of them on, each behind the one that it is joined to; the place of that one
+// among them, and the sphere of the aggregate that has their neck.
 struct RootedSpheres {
   std::vector<std::size_t> order, joinedTo, neckOf;
 };

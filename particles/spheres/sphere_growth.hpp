@@ -1,6 +1,6 @@
-// Growth of an aggregate on its free surface and its loss by burning, centres of spheres at rest: necks widen or narrow,
-// and spheres that another has swallowed are merged. Where spheres would lose contact they follow, in point contact.
-// docs/theory/spheres.md.
+// Growth of an aggregate on its free surface and its loss by burning, centres of spheres at rest: necks widen or
+// narrow, and spheres that another has swallowed are merged. Where spheres would lose contact they follow, in point
+// contact. docs/theory/spheres.md.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ namespace lampblack::particles {
 // A volume for each sphere, put on or taken from its free surface by steps of 1 % of a radius.
 class SphereGrowth {
  public:
-  // One step. `due` (m3, of each sphere, of either sign) becomes what is left of it. `through` is set to the volume that
-  // each sphere has gained from its parent, as the plane between them moved. The volume of all changes by what is no
-  // longer due, to round-off. Returns whether nothing is due. Merging and place() are left to the caller.
+  // One step. `due` (m3, of each sphere, of either sign) becomes what is left of it. `through` is set to the volume
+  // that each sphere has gained from its parent, as the plane between them moved. The volume of all changes by what is
+  // no longer due, to round-off. Returns whether nothing is due. Merging and place() are left to the caller.
   bool step(SphereAggregate& aggregate, std::vector<double>& due, std::vector<double>& through);
 
  private:

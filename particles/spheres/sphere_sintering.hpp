@@ -9,8 +9,8 @@
 
 #include "core/modules.hpp"
 #include "numerics/bogacki_shampine.hpp"
-#include "particles/spheres/sphere_aggregate.hpp"
 #include "particles/spheres/sintering_law.hpp"
+#include "particles/spheres/sphere_aggregate.hpp"
 
 namespace lampblack::particles {
 

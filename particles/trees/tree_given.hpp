@@ -1,5 +1,5 @@
-// A population of trees of spheres in space whose births and growth are said from outside, as another run or a table has
-// them; the gas says how particles collide and how hot they sinter. Inside of TreeProcess.
+// A population of trees of spheres in space whose births and growth are said from outside, as another run or a table
+// has them; the gas says how particles collide and how hot they sinter. Inside of TreeProcess.
 #pragma once
 
 #include <algorithm>

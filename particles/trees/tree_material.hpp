@@ -118,7 +118,8 @@ void requireMaterial(const TreeMaterial& material);
 // C and H with the density and weights of these options; aggregates of the fractal dimension 1.8, which do not sinter.
 [[nodiscard]] TreeMaterial sootMaterial(const SootReactions& reactions);
 
-// Of one component whose unit is a nm3, with GivenReactions: aggregates of the fractal dimension 1.8, which do not sinter.
+// Of one component whose unit is a nm3, with GivenReactions: aggregates of the fractal dimension 1.8, which do not
+// sinter.
 [[nodiscard]] TreeMaterial givenMaterial(double density);
 
 }  // namespace lampblack::particles

@@ -1,6 +1,7 @@
 // Room for trees: blocks of a few sizes in slabs of one size each, so that a tree that grows or goes leaves a place for
 // the next, and a slab without trees is one for any size. A block holds a head, then primaries, then necks, one behind
-// the other; where trees have places in space, then their spheres. Trees of one pool share blocks by counting their holders; not to be used by several threads.
+// the other; where trees have places in space, then their spheres. Trees of one pool share blocks by counting their
+// holders; not to be used by several threads.
 #pragma once
 
 #include <array>
@@ -84,7 +85,8 @@ inline TreePrimary* primariesOf(TreeHead* head) {
 inline TreeNeck* necksOf(TreeHead* head) {
   return reinterpret_cast<TreeNeck*>(primariesOf(head) + head->capacity);
 }
-// One of each primary, of a pool that has them: its parent is the left primary of the neck before it, its neck that one.
+// One of each primary, of a pool that has them: its parent is the left primary of the neck before it, its neck that
+// one.
 inline AggregateSphere* spheresOf(TreeHead* head) {
   return reinterpret_cast<AggregateSphere*>(necksOf(head) + head->capacity - 1);
 }

@@ -1,8 +1,8 @@
 // A stochastic population of trees of primaries in a given gas: inception, coagulation, sintering, and what the
-// material asks for: reactions of sites (TreeSites), condensation, growth and oxidation of soot (TreeSoot), or births and
-// growth that are said from outside (TreeGiven). Equal
-// weights with doubling and contraction (EqualWeightMethod). The gas is not changed, but what is taken from it and
-// given to it is reported: the same atoms that the particles gain, to round-off.
+// material asks for: reactions of sites (TreeSites), condensation, growth and oxidation of soot (TreeSoot), or births
+// and growth that are said from outside (TreeGiven). Equal weights with doubling and contraction (EqualWeightMethod).
+// The gas is not changed, but what is taken from it and given to it is reported: the same atoms that the particles
+// gain, to round-off.
 //
 // Splitting (Strang 1968): collisions and inception by jumps for half a step, growth for all of it, jumps for half a
 // step (runEvents, EvenBirths), of a length over which the population changes by `splitTolerance`. Sintering is not

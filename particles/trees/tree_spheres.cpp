@@ -10,8 +10,8 @@
 namespace lampblack::particles {
 namespace {
 
-constexpr double roundOff = 1e-11;      // of a volume: what sums may have lost
-constexpr double sitesInStep = 1e-9;    // of the sites, up to which they are as many as there is surface
+constexpr double roundOff = 1e-11;    // of a volume: what sums may have lost
+constexpr double sitesInStep = 1e-9;  // of the sites, up to which they are as many as there is surface
 
 const SinteringLaw& checkedLaw(const TreeMaterial& material) {
   if (material.sintering.between == SinteringLaw::Between::parts)
@@ -38,8 +38,7 @@ void TreeSpheres::load(const TreeHead& tree, SphereAggregate& to) {
 void TreeSpheres::store(const SphereAggregate& from, TreeHead& tree) {
   tree.count = static_cast<std::uint32_t>(from.count());
   std::ranges::copy(from.spheres(), spheresOf(&tree));
-  for (std::uint32_t k = 1; k < tree.count; ++k)
-    necksOf(&tree)[k - 1] = {0, 0, from.spheres()[k].parent, k, 0, k};
+  for (std::uint32_t k = 1; k < tree.count; ++k) necksOf(&tree)[k - 1] = {0, 0, from.spheres()[k].parent, k, 0, k};
 }
 
 void TreeSpheres::join(TreeHead& tree, const TreeHead& second, RandomStream& random) {

@@ -1,7 +1,7 @@
-// The geometry of trees whose primaries are overlapping spheres in space (SphereAggregate): what a collision, growth and
-// burning, sintering and breaking do to places, radii and necks, and what a tree's surface and sizes are then. Units of
-// primaries follow what moves between spheres, so that the mass of a primary over the density is the volume of its
-// sphere. docs/theory/spheres.md, "Of trees".
+// The geometry of trees whose primaries are overlapping spheres in space (SphereAggregate): what a collision, growth
+// and burning, sintering and breaking do to places, radii and necks, and what a tree's surface and sizes are then.
+// Units of primaries follow what moves between spheres, so that the mass of a primary over the density is the volume of
+// its sphere. docs/theory/spheres.md, "Of trees".
 //
 // Primaries stand in an order in which each but the first touches one before it: the neck before it is that contact, of
 // which it is the right primary, and which stands as the collision of all before it with it alone.

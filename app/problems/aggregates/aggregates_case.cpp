@@ -71,13 +71,13 @@ void addBuild(DeckSchema& schema) {
                .byDefault("1")
                .above(0)
                .onlyWith("build.by", inGas))
-      .add(
-          choiceKey("build.collision_size", {"shadow", "fractal"},
-                    "Diameter of collision. shadow: of the sphere with the mean projected area; fractal: mean diameter "
-                    "of the spheres' volumes times n^(1/D), D the key fractal_dimension, n = S^3/(36 pi V^2) of so many "
-                    "equal spheres in point contact.")
-              .byDefault("shadow")
-              .onlyWith("build.by", inGas))
+      .add(choiceKey(
+               "build.collision_size", {"shadow", "fractal"},
+               "Diameter of collision. shadow: of the sphere with the mean projected area; fractal: mean diameter "
+               "of the spheres' volumes times n^(1/D), D the key fractal_dimension, n = S^3/(36 pi V^2) of so many "
+               "equal spheres in point contact.")
+               .byDefault("shadow")
+               .onlyWith("build.by", inGas))
       .add(numberKey("build.fractal_dimension", "D of the diameter of collision.")
                .byDefault("1.8")
                .atLeast(1)

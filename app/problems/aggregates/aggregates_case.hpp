@@ -22,7 +22,7 @@ struct AggregatesCase {
   Build build = Build::equalPairs;
   double radius = 0, deviation = 1;  // m, median of the spheres at the start, geometric standard deviation
   std::size_t doublings = 0, spheres = 0, aggregates = 0;
-  double number = 0;  // 1/m3, of spheres at the start, of collisions
+  double number = 0;       // 1/m3, of spheres at the start, of collisions
   TreeOptions population;  // also of the law of sintering
   AggregatesGas gas;
   double birthDiameter = 0;   // m

@@ -220,7 +220,8 @@ void collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::
   for (std::size_t row = 1; row < made.times.size(); ++row) {
     throughTime(made, row, [&](double middle, double length) {
       const double d = made.birthDiameter;
-      population.setSources({made.gas.birthsAt(middle), d > 0 ? volumeOfRadius(0.5 * d) : 0, made.gas.growthAt(middle)});
+      population.setSources(
+          {made.gas.birthsAt(middle), d > 0 ? volumeOfRadius(0.5 * d) : 0, made.gas.growthAt(middle)});
       population.advance({made.gas.at(middle), {}}, length);
     });
     addRow();

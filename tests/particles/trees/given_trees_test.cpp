@@ -1,6 +1,4 @@
 // Populations of spheres in space whose births and growth are given.
-#include "particles/trees/tree_given.hpp"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "particles/population/model/sphere.hpp"
 #include "particles/population/monte_carlo/shipped_types.hpp"
 #include "particles/spheres/sphere_geometry.hpp"
+#include "particles/trees/tree_given.hpp"
 #include "particles/trees/tree_population.hpp"
 #include "tests/every_module.hpp"
 #include "tests/particles/statistics.hpp"

@@ -20,7 +20,8 @@ namespace {
 
 // What the gas gives is what particles gain, unit by unit, and the sample has it as long as nothing is removed from it.
 class BooksOfTrees : public testing::TestWithParam<TreeShape> {};
-INSTANTIATE_TEST_SUITE_P(Shapes, BooksOfTrees, testing::Values(TreeShape::primaries, TreeShape::surfaceVolume, TreeShape::spheres));
+INSTANTIATE_TEST_SUITE_P(Shapes, BooksOfTrees,
+                         testing::Values(TreeShape::primaries, TreeShape::surfaceVolume, TreeShape::spheres));
 
 TEST_P(BooksOfTrees, BookEveryUnit) {
   Nitrogen nitrogen;
