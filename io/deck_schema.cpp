@@ -14,13 +14,21 @@ std::string joinedPath(const std::string& path, const std::string& name) {
   return path.empty() ? name : path + "." + name;
 }
 
+DeckKey& DeckKey::required() {
+  presence = Presence::required;
+  isPresenceSaid = true;
+  return *this;
+}
+
 DeckKey& DeckKey::optional() {
   presence = Presence::optional;
+  isPresenceSaid = true;
   return *this;
 }
 
 DeckKey& DeckKey::byDefault(std::string text) {
   presence = Presence::defaulted;
+  isPresenceSaid = true;
   defaultText = std::move(text);
   return *this;
 }

@@ -65,6 +65,7 @@ class DeckKey {
   DeckKey(std::string keyPath, KeyType keyType, std::string keyDoc)
       : path(std::move(keyPath)), type(keyType), doc(std::move(keyDoc)) {}
 
+  DeckKey& required();  // says what a key is anyway, where another default would be taken (io/deck_keys.hpp)
   DeckKey& optional();
   DeckKey& byDefault(std::string text);  // as it would stand in a deck: "1 atm", "[0, 0, 1]", "true"
   // Another default where all of these conditions hold; of several the first that does.
@@ -92,6 +93,7 @@ class DeckKey {
   std::vector<std::string> formerNames;
   std::vector<std::pair<std::string, std::string>> formerChoices;  // before, now
   Presence presence = Presence::required;
+  bool isPresenceSaid = false;  // by one of the functions above
   std::string defaultText;
   std::vector<DeckDefault> otherDefaults;
   std::optional<Bound> minimum;

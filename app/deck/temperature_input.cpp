@@ -18,6 +18,10 @@ DeckKey temperatureKey(std::string path, std::string doc) {
       .atMost(Thermo::maxTemperature);
 }
 
+DeckKey temperatureRules() {
+  return temperatureKey({}, {});
+}
+
 TemperatureRange allowedTemperatures(const Mechanism& mechanism, TemperatureUse use) {
   const TemperatureRange range = temperatureRange(mechanism);
   // Reactors and flames need room beyond what they start from.

@@ -14,6 +14,8 @@ namespace lampblack::app {
 
 // A temperature of a gas: in the range that any mechanism may have.
 DeckKey temperatureKey(std::string path, std::string doc);
+// Its range alone, of a key that is bound (io/deck_keys.hpp).
+DeckKey temperatureRules();
 
 // What a temperature is for: transport properties and the solvers of reactors narrow the range of a mechanism.
 enum class TemperatureUse { properties, reactor, transport };

@@ -10,6 +10,7 @@
 #include "app/deck/temperature_input.hpp"
 #include "app/problems/flow/flow_case_parts.hpp"
 #include "core/nearest_name.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::flowcase {
 namespace {
@@ -99,7 +100,6 @@ void readKey(const Deck& deck, const FlowCase& flowCase, TimeControl::Branch& br
   const auto hasKind = [&](BoundaryKind kind) {
     return std::ranges::any_of(flowCase.boundaries, [kind](const auto& b) { return b.kind == kind; });
   };
-  branch.key = deck.optionalString(loadedKey).value_or("");
   if (branch.key.empty()) {
     if (!hasKind(BoundaryKind::Inlet))
       throw deck.error(branchSection, "the load is a factor on the velocities of inlets, and there is none");
@@ -118,73 +118,55 @@ void readKey(const Deck& deck, const FlowCase& flowCase, TimeControl::Branch& br
   }
 }
 
+DeckKeys<TimeControl::Branch> branchKeys() {
+  using Branch = TimeControl::Branch;
+  DeckKeys<Branch> keys(branchSection);
+  keys.section(Presence::optional,
+               "The branch of steady states along a load, a factor on the velocities of all inlets or on 'key', from "
+               "the one that was found (load 1) round its turning points (extinction, ignition). The run's fields are "
+               "those of load 1; the branch is a table.",
+               {{"time.mode", {"steady"}}});
+  keys.text("key", &Branch::key, rules().optional(),
+            "What the load is a factor on: 'pressure', or of a boundary NAME 'boundaries.NAME.velocity' (of "
+            "one inlet), 'boundaries.NAME.temperature' (of an inlet or a wall), "
+            "'boundaries.NAME.composition.SPECIES' (a mole fraction of an inlet, the others of which share "
+            "the rest as before). What inlets bring of turbulence stays as it is. Absent: the velocities of "
+            "all inlets.");
+  keys.choice("towards", &Branch::towardsHigherLoad, {{"higher", true}, {"lower", false}}, rules(),
+              "Whether the load rises or falls at the start of the branch.");
+  keys.number("lowest_load", &Branch::lowestLoad, rules().atLeast(0), "The branch ends where the load is below this.");
+  keys.number("highest_load", &Branch::highestLoad, rules().optional().above(0),
+              "The branch ends where the load is above this.");
+  keys.quantity("lowest_temperature", units::temperature, &Branch::lowestPeakTemperature, temperatureRules().optional(),
+                "The branch ends where the largest temperature is below this.");
+  keys.integer(
+      "turning_points", &Branch::turningPoints, rules().atLeast(1),
+      "The branch ends after this number of turning points; from a burning flame the first is extinction.");
+  keys.integer("maximum_points", &Branch::points, rules().atLeast(2), "The branch ends after this number of states.");
+  keys.number("first_step", &Branch::firstStep, rules().above(0).below(1),
+              "Change of the load from the first state of the branch to the second, over the load of the first.");
+  keys.integer("iterations", &Branch::iterations, rules().atLeast(1),
+               "Iterations for a state of the branch, after which a shorter step is tried.");
+  return keys;
+}
+
 }  // namespace
 
 std::optional<TimeControl::Branch> readBranch(const Deck& deck, const TimeControl::Search& search,
                                               const FlowCase& flowCase) {
   if (!deck.has(branchSection)) return {};
-  TimeControl::Branch options;
+  TimeControl::Branch options = branchKeys().read(deck);
   readKey(deck, flowCase, options);
-  options.towardsHigherLoad = deck.choice("time.steady.continuation.towards") == "higher";
-  options.firstStep = deck.number("time.steady.continuation.first_step");
-  options.lowestLoad = deck.number("time.steady.continuation.lowest_load");
-  options.highestLoad = deck.optionalNumber("time.steady.continuation.highest_load").value_or(options.highestLoad);
   if (options.lowestLoad >= 1.0 || options.highestLoad <= 1.0)
     throw deck.error(branchSection,
                      "the branch begins with a load of one: expected 'lowest_load' below it, and "
                      "'highest_load' above it");
-  options.lowestPeakTemperature = deck.optionalQuantity("time.steady.continuation.lowest_temperature").value_or(0.0);
-  options.turningPoints = deck.integer<int>("time.steady.continuation.turning_points");
-  options.points = deck.integer<int>("time.steady.continuation.maximum_points");
-  options.iterations = deck.integer<int>("time.steady.continuation.iterations");
   options.residual = search.residual;
   return options;
 }
 
 void addBranchKeys(DeckSchema& schema) {
-  const TimeControl::Branch branch;
-  schema
-      .section(branchSection, Presence::optional,
-               "The branch of steady states along a load, a factor on the velocities of all inlets or on 'key', from "
-               "the one that was found (load 1) round its turning points (extinction, ignition). The run's fields are "
-               "those of load 1; the branch is a table.",
-               {{"time.mode", {"steady"}}})
-      .add(stringKey("time.steady.continuation.key",
-                     "What the load is a factor on: 'pressure', or of a boundary NAME 'boundaries.NAME.velocity' (of "
-                     "one inlet), 'boundaries.NAME.temperature' (of an inlet or a wall), "
-                     "'boundaries.NAME.composition.SPECIES' (a mole fraction of an inlet, the others of which share "
-                     "the rest as before). What inlets bring of turbulence stays as it is. Absent: the velocities of "
-                     "all inlets.")
-               .optional())
-      .add(choiceKey("time.steady.continuation.towards", {"higher", "lower"},
-                     "Whether the load rises or falls at the start of the branch.")
-               .byDefault("higher"))
-      .add(numberKey("time.steady.continuation.lowest_load", "The branch ends where the load is below this.")
-               .byDefault("0")
-               .atLeast(0))
-      .add(numberKey("time.steady.continuation.highest_load", "The branch ends where the load is above this.")
-               .optional()
-               .above(0))
-      .add(temperatureKey("time.steady.continuation.lowest_temperature",
-                          "The branch ends where the largest temperature is below this.")
-               .optional())
-      .add(integerKey(
-               "time.steady.continuation.turning_points",
-               "The branch ends after this number of turning points; from a burning flame the first is extinction.")
-               .byDefault(fmt::format("{}", branch.turningPoints))
-               .atLeast(1))
-      .add(integerKey("time.steady.continuation.maximum_points", "The branch ends after this number of states.")
-               .byDefault(fmt::format("{}", branch.points))
-               .atLeast(2))
-      .add(numberKey("time.steady.continuation.first_step",
-                     "Change of the load from the first state of the branch to the second, over the load of the first.")
-               .byDefault(fmt::format("{}", branch.firstStep))
-               .above(0)
-               .below(1))
-      .add(integerKey("time.steady.continuation.iterations",
-                      "Iterations for a state of the branch, after which a shorter step is tried.")
-               .byDefault(fmt::format("{}", branch.iterations))
-               .atLeast(1));
+  schema.add(branchKeys().schema());
 }
 
 }  // namespace lampblack::app::flowcase

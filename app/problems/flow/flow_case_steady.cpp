@@ -10,6 +10,7 @@
 #include "app/deck/temperature_input.hpp"
 #include "app/problems/flow/flow_case_parts.hpp"
 #include "coupling/block_statistics.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::flowcase {
 namespace {
@@ -42,6 +43,110 @@ void requirePressure(const Deck& deck, const FlowCase& flowCase) {
                      "with 'time.steady'");
 }
 
+// Of a run in time.
+DeckKeys<SteadyControl> steadyKeys() {
+  const DeckCondition inTime{mode, {"transient"}};
+  DeckKeys<SteadyControl> keys(steadySection);
+  keys.section(
+      Presence::optional,
+      "When a flow is steady. A run in time ends, before time.end, once over a whole residence time no field "
+      "(velocity, temperature, mass fractions, what particles are carried) has changed by more than the tolerance, "
+      "and the changes do not grow; absent: the run goes on to time.end; its closing report says how steady it "
+      "is in either case. With 'time.mode: steady' what is left of the equations counts. Not with ensembles in the "
+      "cells, which fluctuate.");
+  keys.number("tolerance", &SteadyControl::tolerance, rules().byDefault("1e-3").above(0).below(1).onlyWith(inTime),
+              "Largest change of a field in any cell over a residence time, as a share of the range of the "
+              "field in the domain.");
+  keys.quantity("time", units::time, &SteadyControl::time, rules().above(0),
+                "Time over which changes are counted, and that makes residuals relative. Absent: the residence "
+                "time, which is what is in the "
+                "domain over what flows through it; without a flow through it the domain's size over its RMS "
+                "velocity, or over the conduction of heat where that is faster.");
+  keys.choice("norm", &SteadyControl::norm,
+              {{"maximum", Steadiness::Norm::Maximum}, {"rms", Steadiness::Norm::Rms}}, rules().onlyWith(inTime),
+              "maximum: the change of the cell that changes most counts; rms: the root of the mean square over "
+              "the domain, which a small part that moves to and fro does not keep up.");
+  keys.quantity("after", units::time, &SteadyControl::after, rules().atLeast(0).onlyWith(inTime),
+                "Time before which the run does not end: until what boundaries do over time is over, or "
+                "something slow has begun.");
+  return keys;
+}
+
+// Of the search for a steady state, all of which count with 'time.mode: steady' alone.
+DeckKeys<TimeControl::Search> searchKeys() {
+  using Search = TimeControl::Search;
+  DeckKeys<Search> keys(steadySection);
+  keys.number("residual", &Search::residual, rules().above(0).below(1),
+              "Residual below which the flow is steady: what is left of the rates of each equation, summed over "
+              "the cells, as a share of what goes through the domain or is made in it.");
+  keys.integer("iterations", &Search::iterations, rules().atLeast(1).atMost(1e6),
+               "Iterations after which a search that has not come to its end is given up.");
+  keys.integer("returns", &Search::returns, rules().atLeast(0).atMost(20),
+               "How often the search may go back from iterations that do not converge to steps in time, twice "
+               "as many each time, before it is given up.");
+  keys.integer("attempts", &Search::attempts, rules().optional().atLeast(0).atMost(5),
+               fmt::format("Attempts to find the state by iterations before the flow is established: after 20 "
+                           "steps in time, and each after twice as many. What burns and has no residual is taken; "
+                           "an attempt that fails is taken back, and the steps go on as without it. Absent: {} "
+                           "where a flame burns or the gas could burn, none else; a number holds for any gas.",
+                           usualAttempts));
+  keys.integer("steps", &Search::steps, rules().optional().atLeast(1).atMost(1e5),
+               "Steps in time before the first iterations, in place of as many as the heat release takes to "
+               "become quiet (50 to 300; at least 10 in a gas without reactions). With 20 most flames are found "
+               "in a third to a tenth of the time; a "
+               "flame that can stand in two ways may be found in the other.");
+  keys.boolean("light", &Search::lights, rules(),
+               "Lights the flow where nothing burns once the steps in time are over, or in the steady state that "
+               "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "
+               "a gas at least 500 K hotter becomes that gas. At most twice; the run says so. false: what is not "
+               "lit stays cold.");
+  keys.integer("coarser_meshes", &Search::coarserMeshes, rules().optional().atLeast(0).atMost(mostCoarserMeshes),
+               fmt::format("Number of coarser meshes, each of half the cells of the next in every direction (of a "
+                           "plane box), on which the steady state is sought first: what is found on one is the start "
+                           "on the next. A run that is stopped on one of them begins anew. Absent: as many as lead to "
+                           "no more than {} cells where the mechanism has reactions and the start is the deck's own, "
+                           "none with turbulence.",
+                           mostCellsAlone));
+  return keys;
+}
+
+// Of gas and ensembles in turn; as those of the search.
+DeckKeys<SteadyRounds::Options> roundsKeys() {
+  using Rounds = SteadyRounds::Options;
+  DeckKeys<Rounds> keys(steadySection);
+  keys.integer("rounds", &Rounds::most, rules().atLeast(1).onlyWith(ofPopulations()),
+               "Most rounds of gas and particles in turn: in each first the gas becomes steady with what the "
+               "particles take of it in the mean (nothing in the first), then the particles have their averages in "
+               "that gas.");
+  keys.number("agreement", &Rounds::tolerance, rules().above(0).onlyWith(ofPopulations()),
+              "Change of temperature, mass fractions and velocity of the gas from one "
+              "round to the next, of the range of each in the domain, with which the rounds end. What the gas "
+              "feels of the particles has the noise of their averages, by which it differs from round to round.");
+  keys.integer("blocks", &Rounds::blocks,
+               rules().atLeast(static_cast<double>(leastBlocks)).onlyWith(ofPopulations()),
+               "Blocks (particles.statistics.block) of the averages of the last round; "
+               "those before, while "
+               "the gas still changes by more than three times 'agreement', have the least number.");
+  return keys;
+}
+
+DeckKeys<TimeControl::Stability> stabilityKeys() {
+  using Stability = TimeControl::Stability;
+  DeckKeys<Stability> keys(stabilitySection);
+  keys.section(Presence::optional,
+               "Whether the steady state that was found lasts: growth rates and frequencies of its disturbances, which "
+               "take marches of the flow in time, in steps of two sweeps. Absent: not looked at.",
+               {{mode, {"steady"}}});
+  keys.quantity("time", units::time, &Stability::time, rules().above(0),
+                "Time over which each disturbance is marched. Frequencies above one over twice that time are "
+                "told as lower ones. Absent: a fortieth of the residence time.");
+  keys.integer("vectors", inner(&Stability::modes, &ModeOptions::vectors), rules().atLeast(2).atMost(1000),
+               "Disturbances that are marched at most; fewer where the one that leads is known before.");
+  keys.number("disturbance", inner(&Stability::modes, &ModeOptions::disturbance), rules().above(0).below(1),
+              "The largest change of any field in any cell that a disturbance has, of the field's range.");
+  return keys;
+}
+
 }  // namespace
 
 bool isSearched(const Deck& deck) {
@@ -55,9 +160,7 @@ std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCa
                      "ensembles in the cells fluctuate, and with them the gas: their fields never come to rest. Leave "
                      "this out; averages that start by themselves tell when the soot has no trend "
                      "(particles.statistics)");
-  return SteadyControl{deck.number("time.steady.tolerance"), deck.optionalQuantity("time.steady.time"),
-                       deck.quantity("time.steady.after"),
-                       deck.choice("time.steady.norm") == "rms" ? Steadiness::Norm::Rms : Steadiness::Norm::Maximum};
+  return steadyKeys().read(deck);
 }
 
 namespace {
@@ -96,165 +199,23 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   search.reacts = flowCase.mechanism->numReactions() > 0;
   search.coarserMeshes = usualCoarserMeshes(deck, flowCase);
   if (!deck.has(steadySection)) return search;
-  search.residual = deck.number("time.steady.residual");
-  search.iterations = deck.integer<int>("time.steady.iterations");
-  search.returns = deck.integer<int>("time.steady.returns");
-  if (const auto attempts = deck.optionalInteger<int>("time.steady.attempts")) {
-    search.attempts = *attempts;
-    search.triesWithoutFlame = true;
-  }
-  search.steps = deck.optionalInteger<int>("time.steady.steps").value_or(0);
-  if (const auto coarser = deck.optionalInteger<int>("time.steady.coarser_meshes")) search.coarserMeshes = *coarser;
+  searchKeys().read(deck, search, steadySection);
+  search.triesWithoutFlame = deck.isGiven("time.steady.attempts");
   if (search.coarserMeshes > 0 && !isPlaneBox(flowCase))
     throw deck.error("time.steady.coarser_meshes",
                      "coarser meshes are made of plane boxes only, without a floor or a ceiling of their own; leave "
                      "this out");
   search.time = deck.optionalQuantity("time.steady.time");
-  search.lights = deck.boolean("time.steady.light");
-  if (deck.has(stabilitySection))
-    search.stability = {
-        deck.optionalQuantity("time.steady.stability.time"),
-        {deck.integer<int>("time.steady.stability.vectors"), deck.number("time.steady.stability.disturbance")}};
+  if (deck.has(stabilitySection)) search.stability = stabilityKeys().read(deck);
   search.branch = readBranch(deck, search, flowCase);
   return search;
 }
 
 void addSteadyKeys(DeckSchema& schema) {
-  const std::vector<std::string> transient{"transient"};
-  const SteadySearch::Options options;
-  schema
-      .section(
-          steadySection, Presence::optional,
-          "When a flow is steady. A run in time ends, before time.end, once over a whole residence time no field "
-          "(velocity, temperature, mass fractions, what particles are carried) has changed by more than the tolerance, "
-          "and the changes do not grow; absent: the run goes on to time.end; its closing report says how steady it "
-          "is in either case. With 'time.mode: steady' what is left of the equations counts. Not with ensembles in the "
-          "cells, which fluctuate.")
-      .add(numberKey("time.steady.tolerance",
-                     "Largest change of a field in any cell over a residence time, as a share of the range of the "
-                     "field in the domain.")
-               .byDefault("1e-3")
-               .above(0)
-               .below(1)
-               .onlyWith("time.mode", transient))
-      .add(quantityKey("time.steady.time", units::time,
-                       "Time over which changes are counted, and that makes residuals relative. Absent: the residence "
-                       "time, which is what is in the "
-                       "domain over what flows through it; without a flow through it the domain's size over its RMS "
-                       "velocity, or over the conduction of heat where that is faster.")
-               .optional()
-               .above(0))
-      .add(choiceKey("time.steady.norm", {"maximum", "rms"},
-                     "maximum: the change of the cell that changes most counts; rms: the root of the mean square over "
-                     "the domain, which a small part that moves to and fro does not keep up.")
-               .byDefault("maximum")
-               .onlyWith("time.mode", transient))
-      .add(quantityKey("time.steady.after", units::time,
-                       "Time before which the run does not end: until what boundaries do over time is over, or "
-                       "something slow has begun.")
-               .byDefault("0 s")
-               .atLeast(0)
-               .onlyWith("time.mode", transient));
-  DeckSchema search;
-  search
-      .add(numberKey("time.steady.residual",
-                     "Residual below which the flow is steady: what is left of the rates of each equation, summed over "
-                     "the cells, as a share of what goes through the domain or is made in it.")
-               .byDefault(fmt::format("{}", options.residual))
-               .above(0)
-               .below(1))
-      .add(integerKey("time.steady.iterations",
-                      "Iterations after which a search that has not come to its end is given up.")
-               .byDefault(fmt::format("{}", options.iterations))
-               .atLeast(1)
-               .atMost(1e6))
-      .add(integerKey("time.steady.returns",
-                      "How often the search may go back from iterations that do not converge to steps in time, twice "
-                      "as many each time, before it is given up.")
-               .byDefault(fmt::format("{}", options.returns))
-               .atLeast(0)
-               .atMost(20))
-      .add(integerKey(
-               "time.steady.attempts",
-               fmt::format("Attempts to find the state by iterations before the flow is established: after 20 "
-                           "steps in time, and each after twice as many. What burns and has no residual is taken; "
-                           "an attempt that fails is taken back, and the steps go on as without it. Absent: {} "
-                           "where a flame burns or the gas could burn, none else; a number holds for any gas.",
-                           usualAttempts))
-               .optional()
-               .atLeast(0)
-               .atMost(5))
-      .add(integerKey("time.steady.steps",
-                      "Steps in time before the first iterations, in place of as many as the heat release takes to "
-                      "become quiet (50 to 300; at least 10 in a gas without reactions). With 20 most flames are found "
-                      "in a third to a tenth of the time; a "
-                      "flame that can stand in two ways may be found in the other.")
-               .optional()
-               .atLeast(1)
-               .atMost(1e5))
-      .add(
-          booleanKey("time.steady.light",
-                     "Lights the flow where nothing burns once the steps in time are over, or in the steady state that "
-                     "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "
-                     "a gas at least 500 K hotter becomes that gas. At most twice; the run says so. false: what is not "
-                     "lit stays cold.")
-              .byDefault("true"))
-      .add(integerKey("time.steady.coarser_meshes",
-                      "Number of coarser meshes, each of half the cells of the next in every direction (of a plane "
-                      "box), on which the steady state is sought first: what is found on one is the start on the next. "
-                      "A run that is stopped on one of them begins anew. Absent: as many as lead to no more than " +
-                          fmt::format("{}", mostCellsAlone) +
-                          " cells where the mechanism has reactions and the start is the deck's own, none with "
-                          "turbulence.")
-               .optional()
-               .atLeast(0)
-               .atMost(mostCoarserMeshes));
-  const SteadyRounds::Options rounds;
-  search
-      .add(integerKey(
-               "time.steady.rounds",
-               "Most rounds of gas and particles in turn: in each first the gas becomes steady with what the "
-               "particles take of it in the mean (nothing in the first), then the particles have their averages in "
-               "that gas.")
-               .byDefault(fmt::format("{}", rounds.most))
-               .atLeast(1)
-               .onlyWith(ofPopulations()))
-      .add(numberKey("time.steady.agreement",
-                     "Change of temperature, mass fractions and velocity of the gas from one "
-                     "round to the next, of the range of each in the domain, with which the rounds end. What the gas "
-                     "feels of the particles has the noise of their averages, by which it differs from round to round.")
-               .byDefault(fmt::format("{}", rounds.tolerance))
-               .above(0)
-               .onlyWith(ofPopulations()))
-      .add(integerKey("time.steady.blocks",
-                      "Blocks (particles.statistics.block) of the averages of the last round; "
-                      "those before, while "
-                      "the gas still changes by more than three times 'agreement', have the least number.")
-               .byDefault(fmt::format("{}", rounds.blocks))
-               .atLeast(static_cast<double>(leastBlocks))
-               .onlyWith(ofPopulations()));
-  schema.add(search, {"time.mode", {"steady"}});
-  const ModeOptions modes;
-  schema
-      .section(stabilitySection, Presence::optional,
-               "Whether the steady state that was found lasts: growth rates and frequencies of its disturbances, which "
-               "take marches of the flow in time, in steps of two sweeps. Absent: not looked at.",
-               {{"time.mode", {"steady"}}})
-      .add(quantityKey("time.steady.stability.time", units::time,
-                       "Time over which each disturbance is marched. Frequencies above one over twice that time are "
-                       "told as lower ones. Absent: a fortieth of the residence time.")
-               .optional()
-               .above(0))
-      .add(integerKey("time.steady.stability.vectors",
-                      "Disturbances that are marched at most; fewer where the one that leads is known before.")
-               .byDefault(fmt::format("{}", modes.vectors))
-               .atLeast(2)
-               .atMost(1000))
-      .add(numberKey("time.steady.stability.disturbance",
-                     "The largest change of any field in any cell that a disturbance has, of the field's range.")
-               .byDefault(fmt::format("{}", modes.disturbance))
-               .above(0)
-               .below(1));
+  schema.add(steadyKeys().schema());
+  for (const DeckSchema& sought : {searchKeys().schema(), roundsKeys().schema()})
+    schema.add(sought, {mode, {"steady"}});
+  schema.add(stabilityKeys().schema());
   addBranchKeys(schema);
 }
 
@@ -275,9 +236,7 @@ void readRounds(const Deck& deck, FlowCase& flowCase) {
   rounds.leastBlocks = leastBlocks;
   rounds.actsOnGas = ensembles.exchange == EnsembleOperator::Exchange::TwoWay;
   if (!deck.has(steadySection)) return;
-  rounds.most = deck.integer<int>("time.steady.rounds");
-  rounds.tolerance = deck.number("time.steady.agreement");
-  rounds.blocks = deck.integer<std::size_t>("time.steady.blocks");
+  roundsKeys().read(deck, rounds, steadySection);
 }
 
 }  // namespace lampblack::app::flowcase

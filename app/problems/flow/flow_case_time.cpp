@@ -9,98 +9,79 @@
 
 #include "app/deck/gas_input.hpp"
 #include "app/problems/flow/flow_case_parts.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::flowcase {
 
-void addTimeKeys(DeckSchema& schema) {
-  const std::vector<std::string> transient{"transient"};
-  schema
-      .add(choiceKey("time.mode", {"transient", "steady"},
-                     "transient: the flow in time, from the start to time.end; steady: the state of the flow that does "
-                     "not change any more, by steps in time until the flow is established, and iterations on the "
-                     "residual of its equations from there. Outlets, boundaries that do not depend on time, and no "
-                     "ensembles in the cells.")
-               .byDefault("transient"))
-      .add(quantityKey("time.end", units::time, "Time at which the run ends, from zero; a run in time needs it.")
-               .optional()
-               .above(0)
-               .onlyWith("time.mode", transient))
-      .add(quantityKey("time.first_step", units::time, "First time step.").byDefault("1 us").above(0))
-      .add(quantityKey("time.maximum_step", units::time, "Largest time step.").byDefault("1 ms").above(0))
-      .add(numberKey("time.courant", "Share of a cell's volume that may flow out in a step.")
-               .byDefault("0.5")
-               .above(0)
-               .atMost(1))
-      .add(integerKey(
-               "time.sweeps",
+namespace {
+
+DeckKeys<FlowCase> timeKeys() {
+  using Time = TimeControl;
+  using Flow = TransportOperator::Options;
+  constexpr auto time = [](auto member) { return inner(&FlowCase::time, member); };
+  const DeckCondition inTime{"time.mode", {"transient"}};
+  DeckKeys<FlowCase> keys("time");
+  keys.other("mode", KeyType::choice, choiceKey("", {"transient", "steady"}, "").byDefault("transient"),
+             "transient: the flow in time, from the start to time.end; steady: the state of the flow that does "
+             "not change any more, by steps in time until the flow is established, and iterations on the "
+             "residual of its equations from there. Outlets, boundaries that do not depend on time, and no "
+             "ensembles in the cells.");
+  keys.quantity("end", units::time, time(&Time::end), rules().optional().above(0).onlyWith(inTime),
+                "Time at which the run ends, from zero; a run in time needs it.");
+  keys.quantity("first_step", units::time, time(&Time::firstStep), rules().byDefault("1 us").above(0),
+                "First time step.");
+  keys.quantity("maximum_step", units::time, time(&Time::maximumStep), rules().byDefault("1 ms").above(0),
+                "Largest time step.");
+  keys.number("courant", inner(&FlowCase::flow, &Flow::courant), rules().byDefault("0.5").above(0).atMost(1),
+              "Share of a cell's volume that may flow out in a step.");
+  keys.integer("sweeps", inner(&FlowCase::flow, &Flow::sweeps), rules().atLeast(1).atMost(10).onlyWith(inTime),
                "Sweeps of deferred correction in a time step. 1: first order in time, for flames that become steady, "
                "whose steady state is the same; 2: second order, at twice the cost, without the waves that one sweep "
-               "leaves in fast jets of little diffusion; more: smaller errors.")
-               .byDefault("1")
-               .atLeast(1)
-               .atMost(10)
-               .onlyWith("time.mode", transient))
-      .add(numberKey("time.tolerance",
-                     "Largest change by the last sweep that a time step may have in any cell, of the temperature "
-                     "(relative) and of a mass fraction; steps become as short as that needs, and no longer than the "
-                     "Courant number allows. Needs two sweeps; absent: the Courant number alone.")
-               .optional()
-               .above(0)
-               .below(1)
-               .onlyWith("time.mode", transient))
-      .add(numberKey("time.growth", "Largest ratio of a time step to the one before.").byDefault("1.2").above(1))
-      .add(integerKey(
-               "time.retries",
+               "leaves in fast jets of little diffusion; more: smaller errors.");
+  keys.number("tolerance", time(&Time::tolerance), rules().above(0).below(1).onlyWith(inTime),
+              "Largest change by the last sweep that a time step may have in any cell, of the temperature "
+              "(relative) and of a mass fraction; steps become as short as that needs, and no longer than the "
+              "Courant number allows. Needs two sweeps; absent: the Courant number alone.");
+  keys.number("growth", time(&Time::growth), rules().above(1), "Largest ratio of a time step to the one before.");
+  keys.integer("retries", time(&Time::retries), rules().atLeast(0).atMost(20),
                "How often a time step that fails is tried again, each time with a quarter of its length, before "
                "the run ends with its last good state and a checkpoint. Steps fail where a value is no number "
                "any more, a temperature is out of range or colder than the start and all boundaries, more changes "
                "than time.temperature_change and time.least_mass_fraction allow, or the pressure or a cell's "
                "chemistry cannot be solved. "
-               "0: the first failure ends the run.")
-               .byDefault("4")
-               .atLeast(0)
-               .atMost(20))
-      .add(quantityKey("time.temperature_change", units::temperature,
-                       "Largest change of a cell's temperature in a time step. A step that changes one by more fails "
-                       "and is tried again, shorter, and the steps behind it become no longer than that needs.")
-               .byDefault("500 K")
-               .above(0))
-      .add(numberKey(
-               "time.least_mass_fraction",
-               "Most negative mass fraction that a time step may leave in a cell; one that leaves less, and has taken "
-               "it there by more than a tenth of this itself, fails and is tried again, shorter. Nothing is "
-               "clipped.")
-               .byDefault("-1e-4")
-               .below(0))
-      .add(quantityKey("time.wall_limit", units::time,
-                       "Wall time, from the start of the program, before whose end the run stops by itself as SIGTERM "
-                       "stops it: with its last state in the results and a checkpoint, from which `lampblack run "
-                       "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.")
-               .optional()
-               .above(0));
+               "0: the first failure ends the run.");
+  keys.quantity("temperature_change", units::temperature, time(&Time::temperatureChange), rules().above(0),
+                "Largest change of a cell's temperature in a time step. A step that changes one by more fails "
+                "and is tried again, shorter, and the steps behind it become no longer than that needs.");
+  keys.number("least_mass_fraction", time(&Time::leastMassFraction), rules().byDefault("-1e-4").below(0),
+              "Most negative mass fraction that a time step may leave in a cell; one that leaves less, and has taken "
+              "it there by more than a tenth of this itself, fails and is tried again, shorter. Nothing is "
+              "clipped.");
+  keys.quantity("wall_limit", units::time, time(&Time::wallLimit), rules().above(0),
+                "Wall time, from the start of the program, before whose end the run stops by itself as SIGTERM "
+                "stops it: with its last state in the results and a checkpoint, from which `lampblack run "
+                "--restart` goes on, and exit code 143. It makes one step at least. Absent: no limit.");
+  return keys;
+}
+
+}  // namespace
+
+void addTimeKeys(DeckSchema& schema) {
+  schema.add(timeKeys().schema());
   addSteadyKeys(schema);
 }
 
 void readTime(const Deck& deck, FlowCase& flowCase) {
+  timeKeys().read(deck, flowCase, "time");
   TimeControl& time = flowCase.time;
   if (isSearched(deck)) {
     time.search = readSearch(deck, flowCase);
     time.end = std::numeric_limits<double>::infinity();
   } else {
-    time.end = neededQuantity(deck, "time", "end", "a run in time");
-    time.tolerance = deck.optionalNumber("time.tolerance");
+    neededQuantity(deck, "time", "end", "a run in time");
     time.steady = readSteady(deck, flowCase);
-    flowCase.flow.sweeps = deck.integer<int>("time.sweeps");
   }
-  time.firstStep = deck.quantity("time.first_step");
-  time.maximumStep = deck.quantity("time.maximum_step");
-  time.growth = deck.number("time.growth");
-  time.retries = deck.integer<int>("time.retries");
-  time.wallLimit = deck.optionalQuantity("time.wall_limit");
-  time.temperatureChange = deck.quantity("time.temperature_change");
-  time.leastMassFraction = deck.number("time.least_mass_fraction");
   if (time.search && flowCase.ensembles) readRounds(deck, flowCase);
-  flowCase.flow.courant = deck.number("time.courant");
   if (deck.choice("convection.velocity") == "central") {
     flowCase.flow.velocityScheme = VelocityScheme::Central;
     if (flowCase.flow.sweeps < 2)
