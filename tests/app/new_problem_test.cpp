@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/shell/problem.hpp"
+#include "io/deck_keys.hpp"
 #include "io/hdf5_reader.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/messages.hpp"
@@ -17,25 +18,31 @@ namespace {
 
 using testing::HasSubstr;
 
-DeckSchema decaySchema() {
-  DeckSchema schema;
-  schema.add(choiceKey("problem", {"decay"}, "What is solved."))
-      .add(quantityKey("rate", units::frequency, "How fast it decays.").above(0))
-      .add(quantityKey("end", units::time, "Simulated time.").byDefault("1 s").above(0));
-  return schema;
+struct DecayCase {
+  double rate = 0.0, end = 1.0;  // 1/s, s
+  int rows = 10;
+};
+
+DeckKeys<DecayCase> decayKeys() {
+  DeckKeys<DecayCase> keys("");
+  keys.quantity("rate", units::frequency, &DecayCase::rate, rules().required().above(0), "How fast it decays.");
+  keys.quantity("end", units::time, &DecayCase::end, rules().above(0), "Simulated time.");
+  keys.integer("rows", &DecayCase::rows, rules().atLeast(1).atMost(1000), "Rows of the table behind the first.");
+  return keys;
 }
 
 class Decay : public PreparedRun {
  public:
-  Decay(MPI_Comm comm, const Deck& deck)
-      : comm_(comm), deck_(deck), rate_(deck.quantity("rate")), end_(deck.quantity("end")) {}
-  [[nodiscard]] std::string summary() const override { return fmt::format("decay at {:g} 1/s", rate_); }
+  Decay(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck), case_(decayKeys().read(deck)) {}
+  [[nodiscard]] std::string summary() const override { return fmt::format("decay at {:g} 1/s", case_.rate); }
   void run(const RunOptions& options) override {
     recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
       std::vector<double> rows;
-      for (int i = 0; i <= 10; ++i)
-        for (const double value : {0.1 * i * end_, std::exp(-rate_ * 0.1 * i * end_)}) rows.push_back(value);
-      record.simulatedTime = end_;
+      for (int i = 0; i <= case_.rows; ++i) {
+        const double time = case_.end * i / case_.rows;
+        rows.insert(rows.end(), {time, std::exp(-case_.rate * time)});
+      }
+      record.simulatedTime = case_.end;
       ResultsWriter results(comm_, folder.results(), info);
       results.table("/decay", {{"time", "s", "time"}, {"amount", "1", "what is left"}}, rows);
       results.close();
@@ -45,8 +52,12 @@ class Decay : public PreparedRun {
  private:
   MPI_Comm comm_;
   const Deck& deck_;
-  double rate_, end_;
+  DecayCase case_;
 };
+
+DeckSchema decaySchema() {
+  return DeckSchema(decayKeys().schema()).add(choiceKey("problem", {"decay"}, "What is solved."));
+}
 
 std::vector<Problem> problemsAndDecay() {
   std::vector<Problem> table = problems();
@@ -63,7 +74,7 @@ Deck decayDeck(const std::string& text) {
 
 TEST(NewProblem, RunsFromItsRowOfTheTable) {
   const test::SharedScratchFolder scratch;
-  const Deck deck = decayDeck("{problem: decay, rate: 2 1/s}");
+  const Deck deck = decayDeck("{problem: decay, rate: 2 1/s, rows: 4}");
   const auto prepared = problemOf(deck, problemsAndDecay()).prepare(MPI_COMM_WORLD, deck);
   EXPECT_EQ(prepared->summary(), "decay at 2 1/s");
   RunOptions options;
@@ -71,6 +82,7 @@ TEST(NewProblem, RunsFromItsRowOfTheTable) {
   prepared->run(options);
   const Hdf5Reader results(options.folder / "results.h5");
   EXPECT_DOUBLE_EQ(results.numbers("/decay/amount").back(), std::exp(-2.0));
+  EXPECT_EQ(results.numbers("/decay/time").size(), 5u);
   EXPECT_TRUE(std::filesystem::exists(options.folder / "run.json"));
 }
 

@@ -1,59 +1,55 @@
 #include <fmt/format.h>
 
-#include <optional>
-
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/soot_models/soot_models.hpp"
+#include "io/deck_keys.hpp"
 #include "particles/models/semi_empirical/semi_empirical_soot.hpp"
 
 namespace lampblack::app {
 namespace {
 
+// Each absent one is as published with the model.
+DeckKeys<SemiEmpiricalOptions> semiEmpiricalKeys() {
+  using Options = SemiEmpiricalOptions;
+  using Oxygen = Options::Oxygen;
+  const DeckKey factor = rules().optional().atLeast(0);
+  DeckKeys<Options> keys("particles.semi_empirical");
+  keys.quantity("inception_factor", units::frequency, &Options::inceptionFactor, factor,
+                "Factor A of the rate of inception, A exp(-Ta/T) [C2H2], acetylene per volume and time: bigger "
+                "makes more nuclei.");
+  keys.quantity("inception_temperature", units::temperature, &Options::inceptionTemperature, factor,
+                "Activation temperature Ta of the rate of inception, A exp(-Ta/T) [C2H2].");
+  keys.number("nucleus_carbon", &Options::nucleusCarbon, rules().optional().above(0),
+              "Number of carbon atoms of a new particle (nucleus): bigger makes fewer of the same mass.");
+  keys.number("growth_factor", &Options::growthFactor, factor,
+              "Factor A of the rate of surface growth, A exp(-Ta/T) [C2H2] f, with f = S, the surface of soot "
+              "per volume (A in m/s), or f = sqrt(S) (A in m^0.5/s).");
+  keys.quantity("growth_temperature", units::temperature, &Options::growthTemperature, factor,
+                "Activation temperature Ta of the rate of surface growth, A exp(-Ta/T) [C2H2] f.");
+  keys.choice("growth_surface", &Options::growthByRootOfSurface, {{"linear", false}, {"root", true}},
+              rules().optional(),
+              "How surface growth depends on the surface of soot per volume S: linear: f = S; root: f = "
+              "sqrt(S), with which growth does not double where the surface doubles.");
+  keys.number("coagulation_factor", &Options::coagulation, factor,
+              "Factor on the rate of free-molecular coagulation of equal spheres: bigger makes fewer and larger "
+              "particles.");
+  keys.choice(
+      "oxygen", &Options::oxygen,
+      {{"none", Oxygen::none}, {"leung", Oxygen::leung}, {"lee", Oxygen::lee}, {"nagle", Oxygen::nagle}},
+      rules().optional(),
+      "Law of oxidation by O2: leung: Leung, Lindstedt, Jones (1991); lee: Lee, Thring, Beer (1962); "
+      "nagle: Nagle, Strickland-Constable (1962); none: O2 does not oxidise.");
+  keys.number("oxidation_factor", &Options::oxidationFactor, factor,
+              "Factor on the rates of all oxidation of soot; 1 is the published rate.");
+  return keys;
+}
+
 void addSemiEmpiricalKeys(DeckSchema& schema) {
-  const std::string s = "particles.semi_empirical.";
-  schema
+  schema.add(semiEmpiricalKeys().schema())
       .section("particles.semi_empirical", Presence::optional,
                "Constants of leung and moss_brookes; each absent one is as published with the model.",
-               {ofModels(schema, {"leung", "moss_brookes"})})
-      .add(quantityKey(s + "inception_factor", units::frequency,
-                       "Factor A of the rate of inception, A exp(-Ta/T) [C2H2], acetylene per volume and time: bigger "
-                       "makes more nuclei.")
-               .optional()
-               .atLeast(0))
-      .add(quantityKey(s + "inception_temperature", units::temperature,
-                       "Activation temperature Ta of the rate of inception, A exp(-Ta/T) [C2H2].")
-               .optional()
-               .atLeast(0))
-      .add(numberKey(s + "nucleus_carbon",
-                     "Number of carbon atoms of a new particle (nucleus): bigger makes fewer of the same mass.")
-               .optional()
-               .above(0))
-      .add(numberKey(s + "growth_factor",
-                     "Factor A of the rate of surface growth, A exp(-Ta/T) [C2H2] f, with f = S, the surface of soot "
-                     "per volume (A in m/s), or f = sqrt(S) (A in m^0.5/s).")
-               .optional()
-               .atLeast(0))
-      .add(quantityKey(s + "growth_temperature", units::temperature,
-                       "Activation temperature Ta of the rate of surface growth, A exp(-Ta/T) [C2H2] f.")
-               .optional()
-               .atLeast(0))
-      .add(choiceKey(s + "growth_surface", {"linear", "root"},
-                     "How surface growth depends on the surface of soot per volume S: linear: f = S; root: f = "
-                     "sqrt(S), with which growth does not double where the surface doubles.")
-               .optional())
-      .add(numberKey(s + "coagulation_factor",
-                     "Factor on the rate of free-molecular coagulation of equal spheres: bigger makes fewer and larger "
-                     "particles.")
-               .optional()
-               .atLeast(0))
-      .add(choiceKey(s + "oxygen", {"none", "leung", "lee", "nagle"},
-                     "Law of oxidation by O2: leung: Leung, Lindstedt, Jones (1991); lee: Lee, Thring, Beer (1962); "
-                     "nagle: Nagle, Strickland-Constable (1962); none: O2 does not oxidise.")
-               .optional())
-      .add(numberKey(s + "oxidation_factor", "Factor on the rates of all oxidation of soot; 1 is the published rate.")
-               .optional()
-               .atLeast(0));
+               {ofModels(schema, {"leung", "moss_brookes"})});
 }
 
 // The semi-empirical models know acetylene only; ensembles beside them read these keys.
@@ -65,42 +61,17 @@ void refuseUnread(const Deck& deck) {
                                          carriedModel(deck)));
 }
 
-template <class T>
-void set(T& value, const std::optional<double>& given) {
-  if (given) value = *given;
-}
-
 std::unique_ptr<ParticleModel> readSemiEmpirical(const Deck& deck, const Mechanism& mechanism,
                                                  SemiEmpiricalOptions options) {
   refuseUnread(deck);
-  using Oxygen = SemiEmpiricalOptions::Oxygen;
-  const auto number = [&](const char* key) {
-    return deck.optionalNumber(std::string("particles.semi_empirical.") + key);
-  };
-  const auto quantity = [&](const char* key) {
-    return deck.optionalQuantity(std::string("particles.semi_empirical.") + key);
-  };
   options.carbonWeight = readSootWeights(deck, mechanism).carbon;
-  set(options.density, deck.optionalQuantity("particles.density"));
-  set(options.ohEfficiency, deck.optionalNumber("particles.oh_efficiency"));
+  options.density = deck.optionalQuantity("particles.density").value_or(options.density);
+  options.ohEfficiency = deck.optionalNumber("particles.oh_efficiency").value_or(options.ohEfficiency);
   options.inception = deck.boolean("particles.inception");
   options.growth = deck.boolean("particles.growth");
   options.oxidation = deck.boolean("particles.oxidation");
   options.coagulating = deck.boolean("particles.coagulation");
-  set(options.inceptionFactor, quantity("inception_factor"));
-  set(options.inceptionTemperature, quantity("inception_temperature"));
-  set(options.nucleusCarbon, number("nucleus_carbon"));
-  set(options.growthFactor, number("growth_factor"));
-  set(options.growthTemperature, quantity("growth_temperature"));
-  if (const auto surface = deck.optionalString("particles.semi_empirical.growth_surface"))
-    options.growthByRootOfSurface = *surface == "root";
-  set(options.coagulation, number("coagulation_factor"));
-  set(options.oxidationFactor, number("oxidation_factor"));
-  if (const auto oxygen = deck.optionalString("particles.semi_empirical.oxygen"))
-    options.oxygen = *oxygen == "leung"   ? Oxygen::leung
-                     : *oxygen == "lee"   ? Oxygen::lee
-                     : *oxygen == "nagle" ? Oxygen::nagle
-                                          : Oxygen::none;
+  semiEmpiricalKeys().read(deck, options, "particles.semi_empirical");
   return makeSootModel<SemiEmpiricalSoot>(deck, options);
 }
 

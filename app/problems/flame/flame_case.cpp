@@ -15,10 +15,10 @@
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/transport_deck.hpp"
 #include "app/problems/flame/flame_file.hpp"
+#include "app/problems/flame/flame_solver_deck.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/errors.hpp"
 #include "flow/flame/stream_mixture.hpp"
-#include "io/request_limits.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -136,91 +136,6 @@ void readConfiguration(const Deck& deck, FlameCase& flame) {
       throw deck.error("inlet", reason + "; a free flame has to burn");
 }
 
-void readSolver(const Deck& deck, FlameCase& flame) {
-  FlameSolverOptions& options = flame.solver;
-  options.grid.slope = deck.number("grid.slope");
-  options.grid.curve = deck.number("grid.curve");
-  options.grid.ratio = deck.number("grid.ratio");
-  options.grid.prune = deck.number("grid.prune");
-  if (options.grid.prune >= std::min(options.grid.slope, options.grid.curve))
-    throw deck.error(
-        "grid.prune",
-        "expected less than 'slope' and 'curve': the same points would be taken out and put in again without end");
-  options.grid.maximumPoints = deck.integer<std::size_t>("grid.maximum_points");
-  flame.start.points = deck.integer<std::size_t>("grid.initial_points");
-  if (flame.start.points > options.grid.maximumPoints)
-    throw deck.error("grid.initial_points", "expected no more than 'maximum_points'");
-  // The Newton matrix alone has three square blocks a point.
-  const auto unknowns = static_cast<double>(flame.mechanism->numSpecies());
-  requireMemory(deck, "grid.initial_points", fmt::format("a grid of {} points", flame.start.points),
-                3 * sizeof(double) * unknowns * unknowns * static_cast<double>(flame.start.points));
-  options.refine = deck.boolean("grid.refine");
-  options.tolerances.relative = deck.number("solver.relative_tolerance");
-  options.tolerances.species = deck.number("solver.species_tolerance");
-  options.tolerances.temperature = deck.quantity("solver.temperature_tolerance");
-  options.newton.stepTolerance = deck.number("solver.step_tolerance");
-  options.newton.maximumSteps = deck.integer<std::size_t>("solver.maximum_steps");
-  options.newton.jacobianAge = deck.integer<std::size_t>("solver.jacobian_age");
-  options.transient.firstStep = deck.quantity("solver.first_time_step");
-  options.transient.maximumSteps = deck.integer<std::size_t>("solver.maximum_time_steps");
-  options.anchorTemperature = deck.optionalQuantity("solver.anchor_temperature").value_or(0.0);
-  if (const double anchor = options.anchorTemperature; anchor > 0 && anchor <= flame.problem.left.temperature)
-    throw deck.error("solver.anchor_temperature", fmt::format("expected more than the unburnt {:g} K, found {:g} K",
-                                                              flame.problem.left.temperature, anchor));
-}
-
-void readContinuation(const Deck& deck, FlameCase& flame) {
-  if (!deck.has("continuation")) return;
-  FlameContinuationOptions& options = flame.continuation.emplace();
-  options.continuation.towardsHigherLoad = deck.choice("continuation.towards") == "higher";
-  options.continuation.firstStep = deck.number("continuation.first_step");
-  options.continuation.largestStep = deck.number("continuation.largest_step");
-  if (options.continuation.firstStep > options.continuation.largestStep)
-    throw deck.error("continuation.first_step", "expected no more than 'largest_step'");
-  options.lowestLoad = deck.number("continuation.lowest_load");
-  options.highestLoad = deck.optionalNumber("continuation.highest_load").value_or(options.highestLoad);
-  if (!(options.lowestLoad < 1 && options.highestLoad > 1))
-    throw deck.error("continuation",
-                     "expected 'lowest_load' below 1 and 'highest_load' above 1: the flame of the deck");
-  options.lowestPeakTemperature = deck.optionalQuantity("continuation.lowest_temperature").value_or(0.0);
-  options.maximumTurningPoints = deck.integer<std::size_t>("continuation.turning_points");
-  options.maximumPoints = deck.integer<std::size_t>("continuation.maximum_points");
-  options.pointsBetweenGrids = deck.integer<std::size_t>("continuation.points_between_grids");
-  options.grid = flame.solver.grid;
-  options.tolerances = flame.solver.tolerances;
-}
-
-void readUnsteady(const Deck& deck, FlameCase& flame) {
-  if (!deck.has("unsteady")) return;
-  if (flame.continuation)
-    throw deck.error("unsteady",
-                     "a flame is followed either in time (unsteady) or along a branch (continuation); leave out one of "
-                     "the two sections");
-  FlameUnsteady& unsteady = flame.unsteady.emplace();
-  unsteady.fromInitial = deck.choice("unsteady.start") == "initial";
-  if (unsteady.fromInitial && !deck.has("initial"))
-    throw deck.error("unsteady.start", "'initial' needs the key 'initial', the results of an earlier flame");
-  unsteady.options.end = deck.quantity("unsteady.end");
-  unsteady.options.firstStep = deck.quantity("unsteady.first_step");
-  unsteady.options.largestStep = deck.optionalQuantity("unsteady.largest_step").value_or(unsteady.options.largestStep);
-  unsteady.options.accuracy = deck.number("unsteady.accuracy");
-  unsteady.interval = deck.optionalQuantity("unsteady.output_interval");
-  if (unsteady.interval) {
-    // All profiles are kept until the end.
-    const double outputs = unsteady.options.end / *unsteady.interval;
-    const double bytes = sizeof(double) * static_cast<double>(flame.start.points * flame.mechanism->numSpecies());
-    requireOutputs(deck, "unsteady.output_interval", "profiles", outputs, bytes);
-    requireMemory(deck, "unsteady.output_interval", fmt::format("{:.3g} profiles", outputs), outputs * bytes);
-  }
-  if (unsteady.options.firstStep > std::min(unsteady.options.end, unsteady.options.largestStep))
-    throw deck.error("unsteady.first_step", "expected no more than 'end' and 'largest_step'");
-  unsteady.amplitude = deck.number("unsteady.amplitude");
-  const auto frequency = deck.optionalQuantity("unsteady.frequency");
-  if ((unsteady.amplitude > 0) != frequency.has_value())
-    throw deck.error("unsteady", "'amplitude' and 'frequency' belong together: give both or neither");
-  unsteady.frequency = frequency.value_or(0.0);
-}
-
 // Paths begin where streams are, and end where particles are slow: a limit above the streams' own speeds leaves
 // nothing. Where streams have no speed of their own (potential flow, free flames) the flame has to tell.
 void requirePaths(const Deck& deck, const FlameCase& flame) {
@@ -282,9 +197,7 @@ FlameCase readFlameCase(const Deck& deck) {
   readConfiguration(deck, flame);
   flame.problem.transport = readTransport(deck, *flame.mechanism);
   flame.problem.radiation = readRadiation(deck, *flame.mechanism);
-  readSolver(deck, flame);
-  readContinuation(deck, flame);
-  readUnsteady(deck, flame);
+  readFlameSolver(deck, flame);
   if (deck.has("sensitivity")) flame.sensitivities = readSensitivityReactions(deck, *flame.mechanism);
   if (auto model = readSootModel(deck, *flame.mechanism)) {
     flame.soot =

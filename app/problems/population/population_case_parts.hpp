@@ -21,6 +21,8 @@ inline double needed(const Deck& deck, const std::string& section, const std::st
 PopulationModel readModel(const Deck& deck);
 // Sintering makes the model's growth active.
 PopulationParticles readParticles(const Deck& deck, PopulationModel& model);
+// The section methods: its keys, and reading it.
+DeckSchema methodKeys();
 std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase& populationCase);
 // Refuse what the parts, each in its range, cannot be together. InputError.
 void checkProcesses(const Deck& deck, const PopulationCase& populationCase);

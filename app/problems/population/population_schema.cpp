@@ -1,21 +1,9 @@
 #include "app/deck/initial_distribution.hpp"
 #include "app/deck/temperature_input.hpp"
-#include "app/problems/population/population_case.hpp"
+#include "app/problems/population/population_case_parts.hpp"
 
 namespace lampblack::app {
 namespace {
-
-// Who has which keys.
-const std::vector<std::string> jumping{
-    "dsmc", "constant_volume", "constant_number_mass", "constant_number_number", "mmc", "wfmc", "samwfmc", "sammc",
-    "swa",  "hybrid"};
-const std::vector<std::string> monteCarlo = [] {
-  std::vector<std::string> all = jumping;
-  all.emplace_back("pairs");
-  return all;
-}();
-const std::vector<std::string> weighted{"mmc", "wfmc", "samwfmc", "sammc", "swa", "pairs"};
-const std::vector<std::string> fractions{"wfmc", "samwfmc", "sammc"};
 
 // The rate rate (v / reference_volume)^exponent of a process of single particles.
 void addSizeDependentRate(DeckSchema& schema, const std::string& section, const std::string& what) {
@@ -212,155 +200,6 @@ void addGas(DeckSchema& schema) {
                .onlyWith(kernel, {"gravitational"}));
 }
 
-void addMethods(DeckSchema& schema) {
-  const std::string at = "methods.*";
-  schema.section("methods", Presence::required, "Named methods: all are run and compared.")
-      .add(choiceKey(at + ".type",
-                     {"dsmc", "constant_volume", "constant_number_mass", "constant_number_number", "mmc", "wfmc",
-                      "samwfmc", "sammc", "swa", "pairs", "hybrid", "sectional", "qmom", "momic"},
-                     "Equal weights: dsmc, constant_volume (stepwise), constant_number_mass, constant_number_number; "
-                     "different weights: mmc, wfmc, samwfmc, sammc, swa; pairs: different weights, pairs drawn in time "
-                     "steps; hybrid: small particles as numbers; sections "
-                     "and moments: sectional, qmom, momic."))
-      .add(choiceKey(at + ".unbiased_moments", {"M0", "M1", "M2", "M3"},
-                     "Moments in which the method has to show no bias; [] where it is known to have one.")
-               .formerly("claims")
-               .list()
-               .byDefault("[M0, M1, M2, M3]"))
-      .add(choiceKey(at + ".mass", {"conserved", "mean"},
-                     "What is asked of M1 where the processes conserve it: the same in every repeat to 1e-11, or only "
-                     "in the mean. If not given: mean for constant_number_number, for swa but with the weight transfer "
-                     "mass, and for dsmc, constant_volume, hybrid and mmc where particles break.")
-               .optional())
-      .add(integerKey(at + ".particles", "Numerical particles; 2000 if not given.")
-               .optional()
-               .atLeast(2)
-               .atMost(1e9)
-               .onlyWith(at + ".type", monteCarlo))
-      .add(choiceKey(at + ".rates", {"majorant", "exact"},
-                     "How events are drawn: majorant: from upper bounds of the rates, with fictitious jumps, fast; "
-                     "exact: from the sums of all rates, at a cost that goes with the number of particles.")
-               .optional()
-               .onlyWith(at + ".type", jumping))
-      .add(choiceKey(at + ".fraction", {"one", "hyperbolic", "exponential", "stepwise", "constant"},
-                     "Fraction function of coagulation alpha: the part of the smaller weight that coagulates in an "
-                     "event (Wang 2025, eqs. 4-11 to 4-14).")
-               .optional()
-               .onlyWith(at + ".type", fractions))
-      .add(choiceKey(at + ".fraction_of", {"volumes", "weights"},
-                     "What of the two particles the fraction function compares: volumes or weights.")
-               .optional()
-               .onlyWith(at + ".fraction", {"hyperbolic", "exponential", "stepwise"}))
-      .add(numberKey(at + ".fraction_constant", "The constant value of the fraction function alpha.")
-               .optional()
-               .above(0)
-               .atMost(1)
-               .onlyWith(at + ".fraction", {"constant"}))
-      .add(choiceKey(at + ".merging", {"absolute", "relative"},
-                     "Which difference of the volumes of neighbours is to be smallest.")
-               .optional()
-               .onlyWith(at + ".type", {"sammc", "swa"}))
-      .add(choiceKey(at + ".weight_transfer", {"mass", "half", "harmonic"},
-                     "Weight transfer function gamma of the stochastic weighted algorithm: the weight of the particle "
-                     "that two make (Patterson, Wagner, Kraft 2011).")
-               .optional()
-               .onlyWith(at + ".type", {"swa"}))
-      .add(choiceKey(at + ".nucleation", {"even", "random"},
-                     "Nuclei evenly spaced in the integral of their rate (hardly any noise) or at random.")
-               .optional()
-               .onlyWith(at + ".type", jumping))
-      .add(choiceKey(at + ".initial_weights", {"moments", "equal"},
-                     "What the particles of the initial distribution stand for: moments (if not given): the large ones "
-                     "for fewer real ones, so that none holds more than 4/particles of any of M0 to M3; equal: all for "
-                     "as many.")
-               .optional()
-               .onlyWith(at + ".type", weighted))
-      .add(
-          quantityKey(at + ".nucleus_weight", units::perVolume,
-                      "Number density of real particles that a new numerical particle (nucleus) stands for: smaller "
-                      "is more accurate and slower. pairs: most that a nucleus stands for, three times the mean if not "
-                      "given.")
-              .optional()
-              .above(0)
-              .onlyWith(at + ".type", weighted))
-      .add(quantityKey(at + ".expected_number", units::perVolume,
-                       "Monte Carlo that starts without particles: number density at which the sample is full.")
-               .optional()
-               .above(0)
-               .onlyWith(at + ".type", jumping))
-      .add(numberKey(at + ".pair_probability",
-                     "Probability that a candidate pair is to happen with at most, 0.2 if not given: higher draws "
-                     "fewer pairs, and pairs that would be above 1 collide too seldom (counted as limited).")
-               .optional()
-               .above(0)
-               .atMost(1)
-               .onlyWith(at + ".type", {"pairs"}))
-      .add(numberKey(at + ".split_change",
-                     "Part by which coagulation or another process may change the population in a step where there "
-                     "are several, 0.1 if not given: the error of splitting goes with its square.")
-               .optional()
-               .above(0)
-               .atMost(1)
-               .onlyWith(at + ".type", {"pairs"}))
-      .add(integerKey(at + ".threshold",
-                      "Largest size, in nuclei, of particles that are kept as a number of each size; larger ones are "
-                      "kept one by one.")
-               .optional()
-               .atLeast(1)
-               .onlyWith(at + ".type", {"hybrid"}))
-      .add(integerKey(at + ".sections", "Number of sections of mass: more of them reach larger particles.")
-               .optional()
-               .atLeast(20)
-               .atMost(400)
-               .onlyWith(at + ".type", {"sectional"}))
-      .add(quantityKey(at + ".smallest", units::volume, "Volume of the first pivot.")
-               .optional()
-               .above(0)
-               .onlyWith(at + ".type", {"sectional"}))
-      .add(quantityKey(at + ".largest", units::volume, "Volume of the last pivot.")
-               .optional()
-               .above(0)
-               .onlyWith(at + ".type", {"sectional"}))
-      .add(numberKey(at + ".spacing", "Ratio of the volumes of neighbouring pivots.")
-               .optional()
-               .above(1)
-               .onlyWith(at + ".type", {"sectional"}))
-      .add(choiceKey(at + ".growth_scheme", {"limited", "upwind"},
-                     "Flux of growing particles; limited (if not given) is of second order, upwind of first.")
-               .optional()
-               .onlyWith(at + ".type", {"sectional"}))
-      .add(numberKey(at + ".overflow",
-                     "Part of the volume that may pass the last pivot before that is an error; 1e-6 if not "
-                     "given.")
-               .optional()
-               .above(0)
-               .atMost(1)
-               .onlyWith(at + ".type", {"sectional"}))
-      .add(integerKey(at + ".moments", "qmom (even), momic: number of moments.")
-               .optional()
-               .atLeast(2)
-               .atMost(20)
-               .onlyWith(at + ".type", {"qmom", "momic"}))
-      .add(choiceKey(at + ".inversion", {"wheeler", "product_difference"},
-                     "Algorithm that finds nodes and weights of the quadrature from the moments.")
-               .optional()
-               .onlyWith(at + ".type", {"qmom"}))
-      .add(numberKey(at + ".relative_tolerance",
-                     "Relative tolerance of the integrator: smaller is more accurate and slower.")
-               .optional()
-               .above(0)
-               .below(1)
-               .onlyWith(at + ".type", {"sectional", "qmom", "momic"}))
-      .add(numberKey(at + ".absolute_tolerance",
-                     "Absolute tolerance of the integrator, as part of the number of particles of a section that would "
-                     "hold all "
-                     "of any of M0 to M3; 1e-12 if not given.")
-               .optional()
-               .above(0)
-               .below(1)
-               .onlyWith(at + ".type", {"sectional"}));
-}
-
 void addOutput(DeckSchema& schema) {
   schema.add(quantityKey("time.end", units::time, "Time at which the run ends, from zero.").above(0))
       .add(integerKey("time.outputs", "Rows of the histories after that at time zero.")
@@ -410,7 +249,7 @@ DeckSchema populationSchema() {
   addNucleation(schema);
   addSingleProcesses(schema);
   addGas(schema);
-  addMethods(schema);
+  schema.add(populationcase::methodKeys());
   addOutput(schema);
   return schema;
 }
