@@ -116,6 +116,10 @@ class DeckKeys {
   void section(Presence presence, std::string doc, std::vector<DeckCondition> onlyWith = {}) {
     schema_.section(section_, presence, std::move(doc), std::move(onlyWith));
   }
+  // The same of a section in it.
+  void section(const std::string& name, Presence presence, std::string doc) {
+    schema_.section(joinedPath(section_, name), presence, std::move(doc));
+  }
 
   template <typename Member>
   void number(const std::string& name, Member member, DeckKey key, std::string doc) {

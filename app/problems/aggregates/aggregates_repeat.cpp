@@ -61,7 +61,7 @@ void describe(const AggregatesCase& made, const std::vector<const SphereAggregat
     mobility += shadowDiameter(area);
     joints += coordination(*one);
     overlap += uncountedOverlap(*one);
-    if (n >= made.fitFrom) law.add(n, std::sqrt(square) / meanRadius(*one));
+    if (n >= static_cast<double>(made.fitFrom)) law.add(n, std::sqrt(square) / meanRadius(*one));
   }
   const auto count = static_cast<double>(all.size());
   const double variance = std::max(0.0, squares / spheres - logs / spheres * (logs / spheres));

@@ -1,10 +1,11 @@
 // The processes of a population balance deck.
+#include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "app/deck/initial_distribution.hpp"
 #include "app/problems/population/population_case_parts.hpp"
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::populationcase {
 namespace {
@@ -41,28 +42,52 @@ CarrierGas readGas(const Deck& deck, const std::string& kernel) {
           value("viscosity", slip), value("mean_molecular_weight", slip)};
 }
 
+DeckKeys<CollisionKernelOptions> coagulationKeys() {
+  using Options = CollisionKernelOptions;
+  using Kernel = CollisionKernelType;
+  const auto with = [](std::vector<std::string> kernels) {
+    return rules().optional().onlyWith("processes.coagulation.kernel", std::move(kernels));
+  };
+  DeckKeys<Options> keys("processes.coagulation");
+  keys.section(Presence::optional, "Pairs of particles collide and become one.");
+  keys.choice("kernel", &Options::type,
+              {{"constant", Kernel::constant},
+               {"additive", Kernel::additive},
+               {"multiplicative", Kernel::multiplicative},
+               {"free_molecular", Kernel::freeMolecular},
+               {"continuum", Kernel::continuum},
+               {"transition", Kernel::transition},
+               {"transition_fuchs", Kernel::transitionFuchs},
+               {"shear", Kernel::shear},
+               {"gravitational", Kernel::gravitational}},
+              rules().required(),
+              "constant: A, additive: A (u + v), multiplicative: A u v, with the volumes u and v; transition: "
+              "harmonic mean of free-molecular and continuum; transition_fuchs: interpolation of Fuchs.");
+  keys.other("rate", KeyType::string, with(withRate),
+             "A of the first three kernels, with its unit: m^3/s (constant), 1/s (additive), 1/(m^3 s) "
+             "(multiplicative).");
+  keys.number("efficiency", &Options::efficiency, rules().above(0).atMost(1), "Probability that a collision sticks.");
+  keys.quantity("efficiency_diameter", units::length, &Options::efficiencyDiameter, rules().optional().above(0),
+                "Below about this diameter of the smaller particle collisions stick less: the efficiency is "
+                "multiplied by 1 / (1 + (efficiency_diameter / d)^efficiency_exponent).");
+  keys.number("efficiency_exponent", &Options::efficiencyExponent, rules().optional().above(0),
+              "Exponent in the efficiency of collisions of small particles, 1 / (1 + (efficiency_diameter / "
+              "d)^efficiency_exponent): bigger makes a sharper limit.");
+  keys.number("enhancement", &Options::enhancement,
+              with({"free_molecular", "transition", "transition_fuchs"}).above(0),
+              "Factor by which van der Waals forces enhance free-molecular collisions.");
+  keys.quantity("shear_rate", units::frequency, &Options::shearRate, with({"shear"}).above(0),
+                "Velocity gradient of the gas.");
+  return keys;
+}
+
 CollisionKernelOptions readCoagulation(const Deck& deck) {
   const std::string section = "processes.coagulation", kernel = deck.choice(section + ".kernel");
-  static const std::map<std::string, CollisionKernelType> types{
-      {"constant", CollisionKernelType::constant},
-      {"additive", CollisionKernelType::additive},
-      {"multiplicative", CollisionKernelType::multiplicative},
-      {"free_molecular", CollisionKernelType::freeMolecular},
-      {"continuum", CollisionKernelType::continuum},
-      {"transition", CollisionKernelType::transition},
-      {"transition_fuchs", CollisionKernelType::transitionFuchs},
-      {"shear", CollisionKernelType::shear},
-      {"gravitational", CollisionKernelType::gravitational}};
-  CollisionKernelOptions options;
-  options.type = types.at(kernel);
-  options.efficiency = deck.number(section + ".efficiency");
-  options.enhancement = deck.optionalNumber(section + ".enhancement").value_or(1.0);
+  CollisionKernelOptions options = coagulationKeys().read(deck);
   if (deck.has(section + ".efficiency_diameter") != deck.has(section + ".efficiency_exponent"))
     throw deck.error(section, "'efficiency_diameter' and 'efficiency_exponent' belong together: give both or neither");
-  options.efficiencyDiameter = deck.optionalQuantity(section + ".efficiency_diameter").value_or(0.0);
-  options.efficiencyExponent = deck.optionalNumber(section + ".efficiency_exponent").value_or(0.0);
   const std::string who = "the kernel " + kernel;
-  if (kernel == "shear") options.shearRate = needed(deck, section, "shear_rate", who);
+  if (kernel == "shear") needed(deck, section, "shear_rate", who);
   if (std::find(withRate.begin(), withRate.end(), kernel) != withRate.end()) {
     if (!deck.has(section + ".rate")) throw deck.error(section, fmt::format("{} needs the key 'rate'", who));
     options.rate = kernel == "constant" ? readDependent(deck, section + ".rate", units::volumeFlow, who, "1e-6 cm^3/s")
@@ -74,24 +99,44 @@ CollisionKernelOptions readCoagulation(const Deck& deck) {
   return options;
 }
 
+DeckKeys<NucleationOptions> nucleationKeys() {
+  using Options = NucleationOptions;
+  const auto with = [](const char* source) {
+    return rules().optional().onlyWith("processes.nucleation.source", {source});
+  };
+  DeckKeys<Options> keys("processes.nucleation");
+  keys.section(Presence::optional, "New particles of one volume.");
+  keys.choice("source", &Options::source,
+              {{"constant", Options::Source::constant},
+               {"precursor", Options::Source::precursor},
+               {"table", Options::Source::table}},
+              rules(),
+              "constant: `rate`; precursor: rate_constant precursor exp(-rate_constant t); table: straight lines "
+              "between `rates` at `times`, zero outside.");
+  keys.quantity("rate", units::ratePerVolume, &Options::rate, with("constant").above(0), "Nuclei per volume and time.");
+  keys.quantity("rate_constant", units::frequency, &Options::rateConstant, with("precursor").above(0),
+                "Rate constant of the first-order reaction of the precursor to nuclei.");
+  keys.quantity("precursor", units::perVolume, &Options::precursor, with("precursor").above(0),
+                "Number density of the precursor at time zero.");
+  keys.quantity("times", units::time, &Options::times, with("table"), "Times of the points of the table, rising.");
+  keys.quantity("rates", units::ratePerVolume, &Options::rates, with("table").atLeast(0),
+                "Nuclei per volume and time at the times of the table.");
+  return keys;
+}
+
 NucleationOptions readNucleation(const Deck& deck) {
-  const std::string section = "processes.nucleation", source = deck.choice(section + ".source");
-  const std::string who = "nucleation with the source " + source;
-  NucleationOptions options;
+  const std::string section = "processes.nucleation";
+  const std::string who = "nucleation with the source " + deck.choice(section + ".source");
+  NucleationOptions options = nucleationKeys().read(deck);
   options.volume = readParticleSize(deck, section, "nucleation");
-  if (source == "constant") {
-    options.source = NucleationOptions::Source::constant;
-    options.rate = needed(deck, section, "rate", who);
-  } else if (source == "precursor") {
-    options.source = NucleationOptions::Source::precursor;
-    options.rateConstant = needed(deck, section, "rate_constant", who);
-    options.precursor = needed(deck, section, "precursor", who);
+  if (options.source == NucleationOptions::Source::constant) {
+    needed(deck, section, "rate", who);
+  } else if (options.source == NucleationOptions::Source::precursor) {
+    needed(deck, section, "rate_constant", who);
+    needed(deck, section, "precursor", who);
   } else {
-    options.source = NucleationOptions::Source::table;
     for (const char* key : {"times", "rates"})
       if (!deck.has(section + "." + key)) throw deck.error(section, fmt::format("{} needs the key '{}'", who, key));
-    options.times = deck.quantities(section + ".times");
-    options.rates = deck.quantities(section + ".rates");
     if (options.times.size() != options.rates.size() || options.times.size() < 2)
       throw deck.error(section + ".rates", fmt::format("a table needs as many rates as times, at least two; found {} "
                                                        "rates and {} times",
@@ -103,10 +148,68 @@ NucleationOptions readNucleation(const Deck& deck) {
   return options;
 }
 
+// The rate rate (v / reference_volume)^exponent of a process of single particles.
+template <typename Options>
+void addSizeDependentRate(DeckKeys<Options>& keys, const std::string& what) {
+  keys.quantity("rate", units::frequency, &Options::rate, rules().required().atLeast(0),
+                what + " of a particle of reference_volume.");
+  keys.number("exponent", &Options::exponent, rules(),
+              "Exponent e of the volume v in the rate, rate (v / reference_volume)^e.");
+  keys.other("reference_volume", KeyType::quantity, quantityKey("", units::volume, "").byDefault("1 m^3").above(0),
+             "Volume of a particle that has just the rate; of no effect where the exponent is 0.");
+}
+
+DeckKeys<BreakageOptions> breakageKeys() {
+  using Options = BreakageOptions;
+  DeckKeys<Options> keys("processes.breakage");
+  keys.section(Presence::optional, "Particles break into pieces.");
+  addSizeDependentRate(keys, "Rate of breakage");
+  keys.integer("fragments", &Options::fragments, rules().atLeast(2).atMost(1000),
+               "Number of pieces that a particle breaks into.");
+  keys.choice("daughters", &Options::daughters,
+              {{"equal", Options::Daughters::equal}, {"uniform", Options::Daughters::uniform}}, rules(),
+              "equal: all pieces alike; uniform (two pieces): every split equally probable.");
+  return keys;
+}
+
+DeckKeys<DepositionOptions> depositionKeys() {
+  DeckKeys<DepositionOptions> keys("processes.deposition");
+  keys.section(Presence::optional, "Particles are lost.");
+  addSizeDependentRate(keys, "Rate of loss");
+  return keys;
+}
+
+DeckKeys<GrowthOptions> growthKeys() {
+  using Options = GrowthOptions;
+  using Treatment = Options::Treatment;
+  const auto with = [](std::vector<std::string> treatments) {
+    return rules().optional().onlyWith("processes.growth.treatment", std::move(treatments));
+  };
+  DeckKeys<Options> keys("processes");
+  keys.section("condensation", Presence::optional, "dv/dt = rate v; evaporation where it is negative.");
+  keys.quantity("condensation.rate", units::frequency, &Options::condensation, rules().required(),
+                "Relative rate at which every volume grows, the rate in dv/dt = rate v; negative: evaporation.");
+  keys.section("surface_growth", Presence::optional, "dv/dt = rate S, with the surface S of the particle.");
+  keys.quantity("surface_growth.rate", units::velocity, &Options::surfaceGrowth, rules().required().above(0),
+                "Speed at which the surface of particles grows outwards, the rate in dv/dt = rate S.");
+  keys.section("oxidation", Presence::optional, "dv/dt = -rate S.");
+  keys.quantity("oxidation.rate", units::velocity, &Options::oxidation, rules().required().above(0),
+                "Speed at which the surface of particles recedes, the rate in dv/dt = -rate S.");
+  keys.section("growth", Presence::optional, "How condensation, surface growth and oxidation are computed.");
+  keys.choice("growth.treatment", &Options::treatment,
+              {{"split", Treatment::split}, {"deferred", Treatment::deferred}, {"jumps", Treatment::jumps}}, rules(),
+              "Monte Carlo. split: all particles together, in steps between the jumps; deferred: each when it is "
+              "looked at, at the latest at the end of a step; jumps: one monomer at a time, as jumps.");
+  keys.quantity("growth.step", units::time, &Options::step, with({"split", "deferred"}).above(0),
+                "Length of a step; chosen from the rates if not given.");
+  keys.quantity("growth.monomer", units::volume, &Options::monomer, with({"jumps"}).above(0), "Volume of a monomer.");
+  keys.quantity("growth.smallest_volume", units::volume, &Options::smallestVolume, rules().optional().above(0),
+                "Volume below which particles that shrink vanish.");
+  return keys;
+}
+
 // rate (v / reference_volume)^exponent, as a rate at 1 m3.
-void readSizeDependent(const Deck& deck, const std::string& section, double& rate, double& exponent) {
-  rate = deck.quantity(section + ".rate");
-  exponent = deck.number(section + ".exponent");
+void scaleSizeDependent(const Deck& deck, const std::string& section, double& rate, double exponent) {
   if (exponent == 0 && deck.isGiven(section + ".reference_volume"))
     throw deck.error(
         section + ".reference_volume",
@@ -116,36 +219,23 @@ void readSizeDependent(const Deck& deck, const std::string& section, double& rat
 }
 
 BreakageOptions readBreakage(const Deck& deck) {
-  BreakageOptions options;
-  const std::string section = "processes.breakage";
-  readSizeDependent(deck, section, options.rate, options.exponent);
-  options.fragments = deck.integer<int>(section + ".fragments");
-  if (deck.choice(section + ".daughters") == "uniform") {
-    if (options.fragments != 2)
-      throw deck.error(section + ".daughters", "uniform daughters are two; expected 'fragments: 2' or 'equal'");
-    options.daughters = BreakageOptions::Daughters::uniform;
-  }
+  BreakageOptions options = breakageKeys().read(deck);
+  scaleSizeDependent(deck, breakageKeys().path(), options.rate, options.exponent);
+  if (options.daughters == BreakageOptions::Daughters::uniform && options.fragments != 2)
+    throw deck.error("processes.breakage.daughters",
+                     "uniform daughters are two; expected 'fragments: 2' or 'equal'");
   return options;
 }
 
 GrowthOptions readGrowth(const Deck& deck) {
-  GrowthOptions growth;
+  GrowthOptions growth = growthKeys().read(deck);
   const std::string section = "processes.growth";
-  if (deck.has("processes.condensation")) growth.condensation = deck.quantity("processes.condensation.rate");
-  if (deck.has("processes.surface_growth")) growth.surfaceGrowth = deck.quantity("processes.surface_growth.rate");
-  if (deck.has("processes.oxidation")) growth.oxidation = deck.quantity("processes.oxidation.rate");
   if (!deck.has(section)) return growth;
   if (!growth.active() && !deck.has("particles.sintering_time"))
     throw deck.error(
         section,
         "there is no condensation, surface_growth or oxidation, so that nothing grows; leave this section out");
-  const std::string treatment = deck.choice(section + ".treatment");
-  growth.treatment = treatment == "split"      ? GrowthOptions::Treatment::split
-                     : treatment == "deferred" ? GrowthOptions::Treatment::deferred
-                                               : GrowthOptions::Treatment::jumps;
-  growth.step = deck.optionalQuantity(section + ".step").value_or(0.0);
-  growth.smallestVolume = deck.optionalQuantity(section + ".smallest_volume").value_or(0.0);
-  if (treatment == "jumps") growth.monomer = needed(deck, section, "monomer", "the treatment jumps");
+  if (growth.treatment == GrowthOptions::Treatment::jumps) needed(deck, section, "monomer", "the treatment jumps");
   return growth;
 }
 
@@ -187,6 +277,18 @@ PopulationParticles readParticles(const Deck& deck, PopulationModel& model) {
   return SurfaceVolume(density, dimension, *sintering);
 }
 
+void addProcessKeys(DeckSchema& schema) {
+  schema.add(coagulationKeys().schema()).add(nucleationKeys().schema());
+  addParticleSize(schema, nucleationKeys().path(), "of a nucleus");
+  schema.add(breakageKeys().schema()).add(growthKeys().schema()).add(depositionKeys().schema());
+  schema
+      .section("processes.dilution", Presence::optional,
+               "All number densities fall at this rate, as where the gas expands; negative: compression.")
+      .add(quantityKey("processes.dilution.rate", units::frequency,
+                       "Relative rate at which all number densities fall as the gas expands, dn/dt = -rate n; "
+                       "negative: compression."));
+}
+
 PopulationModel readModel(const Deck& deck) {
   PopulationModel model;
   model.density = deck.quantity("particles.density");
@@ -197,8 +299,8 @@ PopulationModel readModel(const Deck& deck) {
   if (deck.has("processes.nucleation")) model.nucleation = readNucleation(deck);
   if (deck.has("processes.breakage")) model.breakage = readBreakage(deck);
   if (deck.has("processes.deposition")) {
-    model.deposition.emplace();
-    readSizeDependent(deck, "processes.deposition", model.deposition->rate, model.deposition->exponent);
+    model.deposition = depositionKeys().read(deck);
+    scaleSizeDependent(deck, "processes.deposition", model.deposition->rate, model.deposition->exponent);
   }
   model.growth = readGrowth(deck);
   if (deck.has("processes.dilution")) model.dilution = deck.quantity("processes.dilution.rate");

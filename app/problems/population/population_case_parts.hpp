@@ -18,12 +18,16 @@ inline double needed(const Deck& deck, const std::string& section, const std::st
   throw deck.error(section, fmt::format("{} needs the key '{}'", who, key));
 }
 
+// The section processes: its keys, and reading it.
+void addProcessKeys(DeckSchema& schema);
 PopulationModel readModel(const Deck& deck);
 // Sintering makes the model's growth active.
 PopulationParticles readParticles(const Deck& deck, PopulationModel& model);
 // The section methods: its keys, and reading it.
 DeckSchema methodKeys();
 std::vector<PopulationMethod> readMethods(const Deck& deck, const PopulationCase& populationCase);
+// The keys of times, repeats and distributions, which readPopulationCase reads.
+DeckSchema outputKeys();
 // Refuse what the parts, each in its range, cannot be together. InputError.
 void checkProcesses(const Deck& deck, const PopulationCase& populationCase);
 void checkMethods(const Deck& deck, const PopulationCase& populationCase);
