@@ -223,6 +223,41 @@ TEST(SiteCounting, IsNearTheMasterEquation) {
   EXPECT_NEAR(h.mean, 10.938212, 0.05 + zLimit * h.standardError);
 }
 
+// Of one site of a type there is one: it is not drawn as a neighbour twice.
+TEST(SiteCounting, DrawsEachNeighbourOnce) {
+  const PahRates rates = particles::test::only(referenceRates(1500), {PahProcess::G6R_FE});
+  SiteClosure closure;
+  closure.add(named("phenanthrene"));
+  closure.prepare();
+  for (std::uint64_t run = 0; run < 300; ++run) {
+    SiteCounting growth(SiteCounts({7, 1, 1, 0, 0, 0}, 3), closure, RandomStream(4, run, 6));
+    growth.advance(rates, 1, 1);
+    EXPECT_EQ(growth.events()[static_cast<std::size_t>(PahProcess::G6R_FE)], 1u);
+    EXPECT_EQ(growth.voids()[static_cast<std::size_t>(PahProcess::G6R_FE)], 0u);
+  }
+}
+
+// Coronene whose rings leave and grow: 24 - 2 (6 z + 18 z^2 + 6 z^3)/(1 + 6 z + 9 z^2 + 2 z^3) carbon atoms, z = 1.
+TEST(SiteCounting, IsNearTheStationaryCoronene) {
+  PahRates rates{};
+  particles::test::rateOf(rates, PahProcess::G6R_AC) = particles::test::rateOf(rates, PahProcess::D6R_FE_AC) = 1;
+  SiteClosure closure;
+  MoleculeGrowth lattice(named("coronene"), RandomStream(6, 0, 1));
+  for (int sample = 0; sample < 3000; ++sample) {
+    lattice.advance(rates, 1, manyEvents);
+    closure.add(lattice.molecule());
+  }
+  closure.prepare();
+  SiteCounting counts(SiteCounts(named("coronene")), closure, RandomStream(6, 1, 1));
+  double carbon = 0;
+  constexpr int samples = 5000;
+  for (int sample = 0; sample < samples; ++sample) {
+    counts.advance(rates, 1, manyEvents);
+    carbon += static_cast<double>(counts.counts().carbon()) / samples;
+  }
+  EXPECT_NEAR(carbon, 24 - 60.0 / 18, 0.5);
+}
+
 // One process has no closure: rings of five on pyrene's zigzags.
 TEST(SiteCounting, OfProcessesWithoutNeighboursIsExact) {
   PahRates rates = particles::test::only(referenceRates(1500), {PahProcess::G5R_ZZ, PahProcess::D5R_R5});
