@@ -251,7 +251,7 @@ def check_refusals(program, folder: pathlib.Path) -> list:
                            ("particles.molecules.sticks=by_size", "sticking_constants"),
                            ("particles.molecules.processes=[G7R]", "particles.molecules.processes"),
                            ("particles.molecules.growth_factor=1.5", "particles.molecules.growth_factor"),
-                           ("particles.material=silica", "molecules are of soot"))[::every]:
+                           ("particles.material=silica", "particles.pah"))[::every]:
         result = program("run", MOLECULES / "deck.yaml", "--out", folder / "never", *running.settings(setting))
         refused(result, ("particles", words), setting)
     if (folder / "never").exists():
