@@ -169,7 +169,8 @@ std::vector<ResidualNorm> residualNorms(const FlowContext& context, const State&
   }
   for (std::size_t s = 0; s < scalars; ++s) {
     if (!state.scalars[s].isTransported) continue;
-    sums.begin(state.scalars[s].name, 1.0, 0.0, ResidualNorm::Kind::Carried);
+    sums.begin(state.scalars[s].name, 1.0, LeastScales::carried * state.scalars[s].negligible,
+               ResidualNorm::Kind::Carried);
     forEachCell([&](std::size_t c, const Vector3& place) {
       const double perMass = state.carried[c * scalars + s] / state.density[c];
       sums.left(rates.carried[c * scalars + s] - perMass * rates.mass[c], place);

@@ -33,6 +33,7 @@ struct LeastScales {
   static constexpr double temperature = 1e-3;  // of the largest
   static constexpr double massFraction = 1e-6;
   static constexpr double velocity = 1e-3;  // of the length of the domain over the time
+  static constexpr double carried = 1e-6;   // of what counts as nothing
 };
 
 class Steadiness {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "flow/steady/steadiness.hpp"
 #include "flow/steady/steady_iteration.hpp"
 
 namespace lampblack::flow {
@@ -20,6 +21,7 @@ double SteadyIteration::ofCarried(const State& state, double through) const {
   const FlowResidual::Rates& rates = residual_.rates();
   const std::size_t n = state.scalars.size();
   std::vector<double> sums(2 * n, 0.0), most(n, 0.0);
+  for (std::size_t s = 0; s < n; ++s) most[s] = LeastScales::carried * state.scalars[s].negligible;
   for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
     for (std::size_t s = 0; s < n; ++s) {
       const std::size_t i = c * n + s;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "flow/steady/carried_update.hpp"
+#include "flow/steady/residual_norms.hpp"
 #include "flow/stepping/transport_operator.hpp"
 #include "flow_fixture.hpp"
 #include "tests/every_module.hpp"
@@ -160,6 +161,22 @@ TEST(CarriedSweeps, EndAsTheLinearSystemDoes) {
   EXPECT_LT(other.settle(1e-11, 200), 200);
   for (std::size_t i = 0; i < 2 * at(one.b.mesh.owned); ++i)
     EXPECT_NEAR(one.state.carried[i], other.state.carried[i], 1e-9 * std::abs(other.state.carried[i])) << i;
+}
+
+// What is far less than what counts as nothing has no residual to speak of, and all of it where that is not known.
+TEST(CarriedSweeps, NothingIsLeftOfNextToNothing) {
+  CarriedAtRest flow({0.0, 0.0}, {0.0, 0.0}, true);
+  for (int c = 0; c < flow.b.mesh.cells; ++c)
+    for (std::size_t s = 0; s < 2; ++s) flow.state.carried[2 * at(c) + s] = 1e-12 * (c % 3);
+  flow.state.scalars[0].negligible = 1.0;
+  flow.residual.evaluate(flow.state);
+  for (const ResidualNorm& norm : residualNorms(flow.b.context, flow.state, flow.residual, 0.024)) {
+    if (norm.equation == "first") {
+      EXPECT_LT(norm.value, 1e-4);
+    } else if (norm.equation == "second") {
+      EXPECT_GT(norm.value, 0.1);
+    }
+  }
 }
 
 }  // namespace
