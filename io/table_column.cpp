@@ -32,6 +32,13 @@ std::pair<std::string, std::string> nameAndUnit(const std::string& header) {
     const std::size_t end = header.find_last_not_of(' ', open - 1);
     return {header.substr(0, end == std::string::npos ? 0 : end + 1), std::move(unit)};
   }
+  // "t / ms"
+  const std::size_t slash = header.rfind('/');
+  if (!isSpecies && slash != std::string::npos && slash > 0) {
+    const std::size_t begin = header.find_first_not_of(' ', slash + 1), end = header.find_last_not_of(' ', slash - 1);
+    if (begin != std::string::npos && end != std::string::npos && isUnit(header.substr(begin)))
+      return {header.substr(0, end + 1), header.substr(begin)};
+  }
   return {header, ""};
 }
 

@@ -11,6 +11,7 @@
 #include "app/problems/reactor/reactor_output.hpp"
 #include "app/problems/reactor/reactor_particle_output.hpp"
 #include "chemistry/reactor/ignition_sensitivity.hpp"
+#include "chemistry/thermo/thermo.hpp"
 #include "core/stop_request.hpp"
 #include "io/progress.hpp"
 #include "io/report.hpp"
@@ -52,7 +53,8 @@ class ClosedReactorDriver : public ReactorOfOneRank {
         [&] {
           if (integrator.time() == case_.ignitionFrom) {
             const std::span<const double> y = integrator.state();
-            compressed_ = {y[case_.mechanism->numSpecies()], reactor.pressure(integrator.time(), y.data())};
+            compressed_ = {y[case_.mechanism->numSpecies()], reactor.pressure(integrator.time(), y.data()),
+                           heatedByReactions(start, y)};
             monitor.begin(integrator.time(), y.data());
           } else if (integrator.time() > case_.ignitionFrom) {
             monitor.observe(integrator);
@@ -105,6 +107,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     json.endObject();
     if (compressed_)
       json.field("end_of_compression_s", case_.ignitionFrom)
+          .field("heated_until_then_K", compressed_->heated)
           .field("compressed_temperature_K", compressed_->temperature)
           .field("compressed_pressure_Pa", compressed_->pressure);
     json.field("final_temperature_K", endTemperature_).field("final_pressure_Pa", endPressure_);
@@ -117,6 +120,11 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     if (compressed_)
       fmt::print("compressed at {:.6e} s to {:.2f} K and {:.6g} Pa; delays count from there\n", case_.ignitionFrom,
                  compressed_->temperature, compressed_->pressure);
+    if (compressed_ && compressed_->heated > kHeated)
+      fmt::print(
+          "note: reactions heated the gas by {:.0f} K before the end of compression; 'ignition.from: start' counts "
+          "delays from the start\n",
+          compressed_->heated);
     for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
       const std::string what = describe(case_.ignition[i], *case_.mechanism);
       if (events_[i])
@@ -170,7 +178,17 @@ class ClosedReactorDriver : public ReactorOfOneRank {
 
   struct Compressed {
     double temperature = 0, pressure = 0;  // K, Pa
+    double heated = 0;                     // K, what the reactions until then give at the temperature of the start
   };
+  static constexpr double kHeated = 50;  // K, of a gas that is igniting
+
+  double heatedByReactions(std::span<const double> start, std::span<const double> y) const {
+    const std::size_t n = case_.mechanism->numSpecies();
+    const Thermo thermo(*case_.mechanism);
+    const double T = start[n];
+    return (thermo.enthalpyMass(T, start.first(n)) - thermo.enthalpyMass(T, y.first(n))) /
+           thermo.cpMass(T, y.first(n));
+  }
 
   const ReactorCase& case_;
   std::optional<Compressed> compressed_;  // where delays count from the end of a compression
