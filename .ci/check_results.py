@@ -93,6 +93,16 @@ def check_study(folder):
     print(f"{folder}: {len(study['runs'])} runs")
 
 
+def check_engine(folder):
+    with h5py.File(folder / "results.h5") as file:
+        pressure, temperature, mass = (file[f"history/{name}"][()] for name in ("pressure", "temperature", "mass"))
+        assert np.all((pressure > 1e4) & (pressure < 1e8)) and np.all((temperature > 250) & (temperature < 4000)), "odd gas"
+        assert np.ptp(mass) < 1e-9 * mass[0] or np.all(np.diff(mass) > -1e-9 * mass[0]), "gas is lost"
+    results = json.loads((folder / "run.json").read_text(encoding="utf-8"))["results"]
+    assert results["energy_error"] < 1e-9 and results["element_error"] < 1e-9, "balances"
+    print(f"{folder}: {len(pressure)} rows of an engine, energy balanced to {results['energy_error']:.2g}")
+
+
 def check_flow(folder):
     with meshio.xdmf.TimeSeriesReader(folder / "results.xdmf") as reader:
         points, cells = reader.read_points_cells()
@@ -119,7 +129,7 @@ def main(folder):
         check_study(folder)
         return
     record = json.loads((folder / "run.json").read_text(encoding="utf-8"))
-    kinds = {"reactor": check_reactor, "prescribed_gas": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "pah": check_molecules, "aggregates": check_aggregates, "flame1d": check_flame}
+    kinds = {"reactor": check_reactor, "prescribed_gas": check_reactor, "particles_along": check_reactor, "population_balance": check_population, "pah": check_molecules, "aggregates": check_aggregates, "engine": check_engine, "flame1d": check_flame}
     kinds.get(record["deck"]["problem"], check_flow)(folder)
 
 
