@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace lampblack::chemistry {
+namespace {
+
+constexpr double pulsation = 5e-5;  // s, amplitude of a pressure wave over the steepest rise
+
+}  // namespace
 
 double burntAngle(const EngineTrace& trace, double part) {
   const double all = trace.chemical.back(), wanted = part * all;
@@ -43,7 +48,7 @@ PressureRise steepestRise(const EngineTrace& trace) {
 
 double ringingIntensity(const EngineTrace& trace) {
   const auto at = static_cast<std::size_t>(std::ranges::max_element(trace.pressure) - trace.pressure.begin());
-  const double g = trace.gamma[at], swing = 0.05 * steepestRise(trace).perTime;
+  const double g = trace.gamma[at], swing = pulsation * steepestRise(trace).perTime;
   return swing * swing / (2 * g * trace.pressure[at]) *
          std::sqrt(g * trace.gasConstant[at] * trace.temperature[at]);
 }

@@ -23,7 +23,7 @@ struct PressureRise {
   double perAngle = 0, perTime = 0;
 };
 [[nodiscard]] PressureRise steepestRise(const EngineTrace& trace);
-// W/m2, (0.05 dp/dt)^2/(2 gamma p) sqrt(gamma R T) at the highest pressure (Eng, SAE 2002-01-2859).
+// W/m2, (0.05 ms dp/dt)^2/(2 gamma p) sqrt(gamma R T) at the highest pressure (Eng, SAE 2002-01-2859).
 [[nodiscard]] double ringingIntensity(const EngineTrace& trace);
 
 }  // namespace lampblack::chemistry

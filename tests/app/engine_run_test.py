@@ -1,0 +1,80 @@
+"""An engine, from the deck to the pictures: the same numbers on any number of ranks, balances with injection and residual gas, repeats
+with intervals.
+
+Usage: engine_run_test.py EXECUTABLE MPIEXEC...
+"""
+
+import json
+import pathlib
+import sys
+import tempfile
+
+import running
+
+h5py = running.package("h5py")
+np = running.package("numpy")
+
+DECK = """problem: engine
+mechanism: hydrogen_h2o2_10.yaml
+engine: {bore: 80 mm, stroke: 90 mm, rod: 150 mm, compression_ratio: 14, speed: 1500 1/min, start: -120 deg, end: 120 deg}
+charge: {temperature: 430 K, pressure: 1 bar, fuel: "H2: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 0.2, temperature_deviation: 10 K, exhaust: 0.1}
+cycles: {residual: 0.05, most: 4, angle_tolerance: 1 deg, temperature_tolerance: 3 K}
+mixing: {time: [10 ms]}
+walls: {temperature: 420 K}
+injection: {fuel: "H2: 1", angles: [-100 deg, -95 deg, -70 deg, -65 deg], rates: [0 g/s, 0.5 g/s, 0.5 g/s, 0 g/s], most_particles: 10}
+sample: {particles: 8}
+step: {angle: 2 deg}
+output: {every: 4 deg, particles_at: [-60 deg, 0 deg, 120 deg], species: [H2, OH]}
+"""
+
+
+def datasets(path: pathlib.Path) -> dict:
+    found = {}
+    with h5py.File(path) as file:
+        file.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
+    return found
+
+
+def run(program, deck, out, *more):
+    result = program("run", deck, "--out", out, *running.settings(*more))
+    assert result.code == 0, f"{program.ranks} ranks: {result}"
+
+
+def main(executable: str, *mpiexec: str) -> None:
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        deck = folder / "deck.yaml"
+        deck.write_text(DECK, encoding="utf-8")
+        for settings in ((), ("sample.repeats=2", "cycles.most=1")):
+            runs = {}
+            for ranks in (1, 2):
+                out = folder / f"{len(settings)}_{ranks}"
+                run(running.Program(executable, list(mpiexec), ranks), deck, out, *settings)
+                runs[ranks] = datasets(out / "results.h5")
+            different = [name for name in runs[1] if runs[1][name].tobytes() != runs[2][name].tobytes()]
+            assert not different, f"2 ranks: other numbers than on one in {different}"
+        data = datasets(folder / "0_1/results.h5")
+        h = {name.removeprefix("history/"): values for name, values in data.items() if name.startswith("history/")}
+        results = json.loads((folder / "0_1/run.json").read_text(encoding="utf-8"))["results"]
+        assert results["energy_error"] < 1e-12 and results["element_error"] < 1e-12, results
+        assert h["angle"][0] == -120 and h["angle"][-1] == 120 and len(h["angle"]) == 61
+        assert h["particles"][-1] == 10 and np.isclose(h["mass"][-1] - h["mass"][0], 0.5e-3 * 30 / (360 * 25), rtol=1e-9)
+        fill = h["pressure"] * h["volume"] / (h["mass"] * h["temperature"])
+        assert np.all((fill > 280) & (fill < 330)), fill
+        work = np.sum(0.5 * (h["pressure"][1:] + h["pressure"][:-1]) * np.diff(h["volume"]))
+        assert np.isclose(work, h["work"][-1], rtol=0.1), (work, h["work"][-1])
+        assert -30 < results["ca50"] < 30 and results["ca10"] < results["ca50"] < results["ca90"]
+        assert np.isclose(results["chemical_heat"], h["chemical_heat"][-1]) and h["X_H2"][-1] < 1e-3 * h["X_H2"][30] + 1e-3
+        assert len(data["cycles/ca50"]) > 1 and data["cycles/start_temperature"][1] > data["cycles/start_temperature"][0] + 5
+        assert results["cycles_converged"] and list(np.unique(data["particles/angle"])) == [-60, 0, 120]
+        several = datasets(folder / "2_1/results.h5")
+        assert len(several["repeats/ca50"]) == 2 and several["repeats/ca50"][0] != several["repeats/ca50"][1]
+        assert np.isclose(several["history/pressure"][30], np.mean(several["history/pressure"][30])) and np.any(several["history/pressure_ci95"] > 0)
+        drawn = running.script(running.SOURCE / "scripts/plot", folder / "0_1")
+        assert drawn.code == 0, drawn
+        for picture in ("cycle", "emissions", "scatter"):
+            assert (folder / "0_1" / "pictures" / f"{picture}.png").exists(), picture
+    print("ranks, balances, cycles, repeats and pictures agree")
+
+
+main(*sys.argv[1:])
