@@ -49,8 +49,7 @@ TEST(SliderCrank, VolumesOfTheGeely) {
   EXPECT_NEAR(1e6 * crank.displacement(), 332.586, 1e-3);
   EXPECT_NEAR(1e6 * crank.clearance(), 38.6728, 1e-4);
   const double volumes[] = {66.9903, 140.1310, 229.5167, 306.4242, 355.0186};
-  for (int k = 0; k < 5; ++k)
-    EXPECT_NEAR(1e6 * crank.volume((k + 1) * std::numbers::pi / 6), volumes[k], 1e-4) << k;
+  for (int k = 0; k < 5; ++k) EXPECT_NEAR(1e6 * crank.volume((k + 1) * std::numbers::pi / 6), volumes[k], 1e-4) << k;
   EXPECT_NEAR(crank.volume(std::numbers::pi), crank.clearance() + crank.displacement(), 1e-12);
 }
 
@@ -99,14 +98,16 @@ TEST(EngineCase, SaysWhatIsWrong) {
   EXPECT_THAT(refusedEngine(whole, {"engine.rod=4 cm"}), HasSubstr("longer than half of the stroke"));
   EXPECT_THAT(refusedEngine(whole, {"engine.end=-100 deg"}), HasSubstr("that rise"));
   EXPECT_THAT(refusedEngine(whole + "mixing: {time: [1 ms, 2 ms]}\n"), HasSubstr("2 values for 0 angles"));
-  EXPECT_THAT(refusedEngine(whole + "mixing: {time: [1 ms, 2 ms], angles: [10 deg, 0 deg]}\n"), HasSubstr("angles that rise"));
+  EXPECT_THAT(refusedEngine(whole + "mixing: {time: [1 ms, 2 ms], angles: [10 deg, 0 deg]}\n"),
+              HasSubstr("angles that rise"));
   EXPECT_THAT(refusedEngine(whole + "walls: {jumps: 0.5}\n"), HasSubstr("more than 1, or 0"));
   EXPECT_THAT(refusedEngine(whole + "walls: {model: constant}\n"), HasSubstr("'factor'"));
   EXPECT_THAT(refusedEngine(whole + "output: {particles_at: [100 deg]}\n"), HasSubstr("between engine.start"));
   EXPECT_THAT(refusedEngine(whole + "injection: {fuel: 'H2: 1', angles: [0 deg, 1 deg], rates: [1 g/s, 0 g/s]}\n"),
               HasSubstr("begin and end with zero"));
-  EXPECT_THAT(refusedEngine("charge: {temperature: 400 K, pressure: 1 bar, composition: 'H2: 1', ratio_deviation: 0.1}\n"),
-              HasSubstr("by fuel, oxidizer"));
+  EXPECT_THAT(
+      refusedEngine("charge: {temperature: 400 K, pressure: 1 bar, composition: 'H2: 1', ratio_deviation: 0.1}\n"),
+      HasSubstr("by fuel, oxidizer"));
   EXPECT_THAT(refusedEngine(whole + "soot: {model: none}\n"), HasSubstr("soot"));
 }
 

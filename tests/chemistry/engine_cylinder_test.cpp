@@ -1,4 +1,6 @@
 // The gas of a cylinder against one zone by CVODE, orders, balances, ranks.
+#include "chemistry/reactor/engine/engine_cylinder.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics.hpp"
-#include "chemistry/reactor/engine/engine_cylinder.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "tests/chemistry/engine_particles.hpp"
 #include "tests/every_module.hpp"
@@ -137,8 +138,8 @@ double endTemperature(const EngineOptions& options, const EngineGas& gas) {
   return meanTemperature(run);
 }
 
-// Equal particles, the mean loss: that of one zone, of second order in the step; hot steam that comes apart and together
-// as the piston moves.
+// Equal particles, the mean loss: that of one zone, of second order in the step; hot steam that comes apart and
+// together as the piston moves.
 TEST(EngineCylinder, EqualParticlesAreOneZone) {
   const EngineGas gas = full(engineGas({{1700, steam}, {1700, steam}}));
   const double exact = oneZoneTemperature(gas, 2000);

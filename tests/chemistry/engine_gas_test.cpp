@@ -1,10 +1,11 @@
 // Particles of one pressure that a piston compresses.
+#include "chemistry/reactor/engine/engine_gas.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "chemistry/reactor/engine/engine_gas.hpp"
 #include "chemistry/thermo/equilibrium.hpp"
 #include "tests/chemistry/engine_particles.hpp"
 #include "tests/every_module.hpp"
@@ -37,7 +38,8 @@ TEST(EngineGas, ParticlesStayOnTheirIsentropes) {
   const Thermo thermo(hydrogen());
   EngineGas gas = engineGas({{450, "H2: 1, O2: 3, N2: 4"}, {900, "N2: 1, H2O: 1"}, {1400, "AR: 1"}});
   std::vector<double> entropies;
-  for (std::size_t i = 0; i < 3; ++i) entropies.push_back(thermo.entropyMass(gas.temperature[i], gas.pressure, gas.Y(i)));
+  for (std::size_t i = 0; i < 3; ++i)
+    entropies.push_back(thermo.entropyMass(gas.temperature[i], gas.pressure, gas.Y(i)));
   const double volume = volumeOf(thermo, gas);
   EngineCompression(thermo).moveTo(volume / 7, gas);
   EXPECT_NEAR(volumeOf(thermo, gas) * 7 / volume, 1, 1e-14);

@@ -1,9 +1,10 @@
 // Heat from an engine's particles to its walls.
+#include "chemistry/reactor/engine/engine_heat.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "chemistry/reactor/engine/engine_heat.hpp"
 #include "tests/chemistry/engine_particles.hpp"
 #include "tests/every_module.hpp"
 

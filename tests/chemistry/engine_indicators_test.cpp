@@ -1,9 +1,10 @@
 // What is said of a cycle, of a trace whose numbers are known.
+#include "chemistry/reactor/engine/engine_indicators.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "chemistry/reactor/engine/engine_indicators.hpp"
 #include "tests/every_module.hpp"
 
 namespace {

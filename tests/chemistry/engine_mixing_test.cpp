@@ -1,11 +1,12 @@
 // Mixing of an engine's particles: variance, shape, what is conserved.
+#include "chemistry/reactor/engine/engine_mixing.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "chemistry/reactor/engine/engine_mixing.hpp"
 #include "tests/chemistry/engine_particles.hpp"
 #include "tests/every_module.hpp"
 
@@ -38,8 +39,14 @@ MixingMoments momentsOf(const EngineGas& gas, const char* name = "O2") {
 }
 
 EngineGas streams() {
-  EngineGas gas = engineGas({{400, "N2: 1"}, {600, "O2: 1"}, {500, "O2: 1, N2: 3"}, {1500, "H2O: 1"},
-                             {700, "O2: 1, AR: 1"}, {350, "H2: 1"}, {800, "O2: 2, N2: 1"}, {900, "AR: 1"}});
+  EngineGas gas = engineGas({{400, "N2: 1"},
+                             {600, "O2: 1"},
+                             {500, "O2: 1, N2: 3"},
+                             {1500, "H2O: 1"},
+                             {700, "O2: 1, AR: 1"},
+                             {350, "H2: 1"},
+                             {800, "O2: 2, N2: 1"},
+                             {900, "AR: 1"}});
   for (std::size_t i = 0; i < gas.count(); ++i) gas.mass[i] *= 1 + 0.5 * static_cast<double>(i % 3);
   return gas;
 }
@@ -104,9 +111,13 @@ void expectDecay(EngineMixingModel model, const EngineGas& start) {
   EXPECT_LT(error, 0.02);
 }
 
-TEST(EngineMixing, CurlTakesTheVariance) { expectDecay(EngineMixingModel::curl, streams()); }
+TEST(EngineMixing, CurlTakesTheVariance) {
+  expectDecay(EngineMixingModel::curl, streams());
+}
 
-TEST(EngineMixing, ModifiedCurlTakesTheVariance) { expectDecay(EngineMixingModel::modifiedCurl, streams()); }
+TEST(EngineMixing, ModifiedCurlTakesTheVariance) {
+  expectDecay(EngineMixingModel::modifiedCurl, streams());
+}
 
 TEST(EngineMixing, OneParticleOrNoModelChangesNothing) {
   const Thermo thermo(hydrogen());

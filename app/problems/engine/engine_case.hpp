@@ -19,25 +19,25 @@ struct EngineCase {
   std::string title;
   std::shared_ptr<const Mechanism> mechanism;
   SliderCrank crank;
-  double speed = 0;             // 1/s, turns
-  double start = 0, end = 0;    // deg, from the upper dead centre
-  double temperature = 0, pressure = 0;  // K, Pa, at the start
+  double speed = 0;                                     // 1/s, turns
+  double start = 0, end = 0;                            // deg, from the upper dead centre
+  double temperature = 0, pressure = 0;                 // K, Pa, at the start
   double temperatureDeviation = 0, ratioDeviation = 0;  // K; 1, of the particles at the start
-  std::vector<double> fresh;          // mass fractions
-  std::vector<double> fuel, oxidizer; // mole fractions, where the charge is given by them
-  double ratio = 0;                   // equivalence ratio of the fresh charge
-  double exhaust = 0;                 // part of the charge that is burnt gas, by mole or by mass
+  std::vector<double> fresh;                            // mass fractions
+  std::vector<double> fuel, oxidizer;                   // mole fractions, where the charge is given by them
+  double ratio = 0;                                     // equivalence ratio of the fresh charge
+  double exhaust = 0;                                   // part of the charge that is burnt gas, by mole or by mass
   bool isExhaustByMole = false;
-  double exhaustFrozen = 0;           // K, at which the burnt gas is in equilibrium
-  double residual = 0;                // part by mass that stays of the cycle before
+  double exhaustFrozen = 0;  // K, at which the burnt gas is in equilibrium
+  double residual = 0;       // part by mass that stays of the cycle before
   std::size_t mostCycles = 1;
   double angleTolerance = 0, temperatureTolerance = 0;  // deg of CA50, K at the start
-  EngineOptions options;              // but the repeat
+  EngineOptions options;                                // but the repeat
   std::size_t particles = 0;
   std::uint64_t repeats = 1, seed = 1;
-  double every = 0;                   // deg, between rows
-  std::vector<double> particlesAt;    // deg
-  std::vector<std::size_t> species;   // of the history, the particles and the emissions
+  double every = 0;                  // deg, between rows
+  std::vector<double> particlesAt;   // deg
+  std::vector<std::size_t> species;  // of the history, the particles and the emissions
 
   [[nodiscard]] double timeOf(double angle) const { return (angle - start) / (360 * speed); }
   [[nodiscard]] std::vector<double> angles() const;  // of the rows

@@ -52,8 +52,8 @@ EngineGas engineCharge(const EngineCase& made, std::uint64_t repeat, const Engin
     // To the pressure of the charge along its isentrope.
     EngineCompression compression(thermo);
     for (int tries = 0; tries < 60 && std::abs(expanded.pressure / made.pressure - 1) > 1e-13; ++tries) {
-      const double slope = thermo.cvMass(expanded.temperature[0], expanded.Y(0)) /
-                           thermo.cpMass(expanded.temperature[0], expanded.Y(0));
+      const double slope =
+          thermo.cvMass(expanded.temperature[0], expanded.Y(0)) / thermo.cpMass(expanded.temperature[0], expanded.Y(0));
       compression.moveTo(volumeOf(thermo, expanded) * std::pow(expanded.pressure / made.pressure, slope), expanded);
     }
     residualEnthalpy = thermo.enthalpyMass(expanded.temperature[0], expanded.Y(0));
@@ -64,10 +64,12 @@ EngineGas engineCharge(const EngineCase& made, std::uint64_t repeat, const Engin
   gas.pressure = made.pressure;
   for (std::size_t i = 0; i < made.particles; ++i) {
     const double ratio = made.ratioDeviation > 0 ? made.ratio + made.ratioDeviation * normal(random) : made.ratio;
-    const double T = made.temperature + (made.temperatureDeviation > 0 ? made.temperatureDeviation * normal(random) : 0);
+    const double T =
+        made.temperature + (made.temperatureDeviation > 0 ? made.temperatureDeviation * normal(random) : 0);
     if (!(ratio >= 0) || !(T > Thermo::minTemperature))
-      throw InputError("the deviations of the charge are so large that a particle has no fuel or heat left; give less "
-                       "of charge.temperature_deviation or charge.ratio_deviation");
+      throw InputError(
+          "the deviations of the charge are so large that a particle has no fuel or heat left; give less "
+          "of charge.temperature_deviation or charge.ratio_deviation");
     std::vector<double> Y = made.ratioDeviation > 0 ? freshGas(made, thermo, ratio) : made.fresh;
     for (std::size_t k = 0; k < Y.size(); ++k) Y[k] += exhaust * (burnt[k] - Y[k]);
     double temperature = T;

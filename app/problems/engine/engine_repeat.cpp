@@ -38,8 +38,7 @@ class CycleRows {
     const EngineTotals all = totalsOf(thermo_, gas);
     const EngineLedger& ledger = cylinder.ledger();
     std::vector<double> ratios;
-    for (std::size_t i = 0; i < gas.count(); ++i)
-      ratios.push_back(equivalenceRatioOf(*made_.mechanism, gas.Y(i)));
+    for (std::size_t i = 0; i < gas.count(); ++i) ratios.push_back(equivalenceRatioOf(*made_.mechanism, gas.Y(i)));
     double meanRatio = 0;
     for (std::size_t i = 0; i < gas.count(); ++i) meanRatio += gas.mass[i] / all.mass * ratios[i];
     const double R = gas.pressure * all.volume / (all.mass * all.temperature);
@@ -151,49 +150,51 @@ void addParticles(const EngineCase& made, const Thermo& thermo, const EngineGas&
 }  // namespace
 
 std::vector<Quantity> engineQuantities(const EngineCase& made) {
-  std::vector<Quantity> all{{"pressure", "Pa", "pressure"},
-                            {"volume", "m^3", "volume of the cylinder"},
-                            {"mass", "kg", "mass of the gas"},
-                            {"particles", "1", "particles of gas"},
-                            {"temperature", "K", "mean temperature by mass"},
-                            {"temperature_deviation", "K", "standard deviation of the temperatures by mass"},
-                            {"temperature_10", "K", "temperature below which 10 % of the mass are"},
-                            {"temperature_50", "K", "temperature below which half of the mass is"},
-                            {"temperature_90", "K", "temperature below which 90 % of the mass are"},
-                            {"equivalence_ratio", "1", "mean of (2 C + H/2)/O of the elements by mass"},
-                            {"equivalence_ratio_deviation", "1", "its standard deviation by mass"},
-                            {"gamma", "1", "ratio of the heat capacities"},
-                            {"heat_release", "J/deg", "heat set free by the reactions"},
-                            {"net_heat_release", "J/deg", "heat release from pressure and volume, less that to the walls"},
-                            {"chemical_heat", "J", "heat set free since the start"},
-                            {"wall_heat", "J", "heat to the walls since the start"},
-                            {"work", "J", "work on the piston since the start"}};
+  std::vector<Quantity> all{
+      {"pressure", "Pa", "pressure"},
+      {"volume", "m^3", "volume of the cylinder"},
+      {"mass", "kg", "mass of the gas"},
+      {"particles", "1", "particles of gas"},
+      {"temperature", "K", "mean temperature by mass"},
+      {"temperature_deviation", "K", "standard deviation of the temperatures by mass"},
+      {"temperature_10", "K", "temperature below which 10 % of the mass are"},
+      {"temperature_50", "K", "temperature below which half of the mass is"},
+      {"temperature_90", "K", "temperature below which 90 % of the mass are"},
+      {"equivalence_ratio", "1", "mean of (2 C + H/2)/O of the elements by mass"},
+      {"equivalence_ratio_deviation", "1", "its standard deviation by mass"},
+      {"gamma", "1", "ratio of the heat capacities"},
+      {"heat_release", "J/deg", "heat set free by the reactions"},
+      {"net_heat_release", "J/deg", "heat release from pressure and volume, less that to the walls"},
+      {"chemical_heat", "J", "heat set free since the start"},
+      {"wall_heat", "J", "heat to the walls since the start"},
+      {"work", "J", "work on the piston since the start"}};
   for (const std::size_t k : made.species)
     all.push_back({"X_" + made.mechanism->speciesName(k), "1", "mole fraction in all of the gas"});
   return all;
 }
 
 std::vector<Quantity> engineSummaryQuantities(const EngineCase& made) {
-  std::vector<Quantity> all{{"cycle", "1", "number of the cycle"},
-                            {"start_temperature", "K", "mean temperature as the inlet closes"},
-                            {"ca10", "deg", "angle at which 10 % of the heat are free"},
-                            {"ca50", "deg", "angle at which half of the heat is free"},
-                            {"ca90", "deg", "angle at which 90 % of the heat are free"},
-                            {"burn_duration", "deg", "from ca10 to ca90"},
-                            {"work", "J", "work while the valves are closed"},
-                            {"imep", "Pa", "that work over the displaced volume"},
-                            {"chemical_heat", "J", "heat set free"},
-                            {"wall_heat", "J", "heat to the walls"},
-                            {"largest_pressure", "Pa", "highest pressure"},
-                            {"largest_pressure_at", "deg", "its angle"},
-                            {"largest_temperature", "K", "highest mean temperature"},
-                            {"pressure_rise", "Pa/deg", "steepest rise of the pressure"},
-                            {"ringing", "W/m^2", "ringing intensity"},
-                            {"steps", "1", "steps of the splitting"},
-                            {"rejected_steps", "1", "steps that were halved"},
-                            {"step_error", "1", "part of the volume by which reactions grew otherwise than foreseen, largest"},
-                            {"energy_error", "1", "what the balance of energy lacks over the heat in the gas"},
-                            {"element_error", "1", "what the balance of an element lacks over its amount"}};
+  std::vector<Quantity> all{
+      {"cycle", "1", "number of the cycle"},
+      {"start_temperature", "K", "mean temperature as the inlet closes"},
+      {"ca10", "deg", "angle at which 10 % of the heat are free"},
+      {"ca50", "deg", "angle at which half of the heat is free"},
+      {"ca90", "deg", "angle at which 90 % of the heat are free"},
+      {"burn_duration", "deg", "from ca10 to ca90"},
+      {"work", "J", "work while the valves are closed"},
+      {"imep", "Pa", "that work over the displaced volume"},
+      {"chemical_heat", "J", "heat set free"},
+      {"wall_heat", "J", "heat to the walls"},
+      {"largest_pressure", "Pa", "highest pressure"},
+      {"largest_pressure_at", "deg", "its angle"},
+      {"largest_temperature", "K", "highest mean temperature"},
+      {"pressure_rise", "Pa/deg", "steepest rise of the pressure"},
+      {"ringing", "W/m^2", "ringing intensity"},
+      {"steps", "1", "steps of the splitting"},
+      {"rejected_steps", "1", "steps that were halved"},
+      {"step_error", "1", "part of the volume by which reactions grew otherwise than foreseen, largest"},
+      {"energy_error", "1", "what the balance of energy lacks over the heat in the gas"},
+      {"element_error", "1", "what the balance of an element lacks over its amount"}};
   for (const std::size_t k : made.species) {
     const std::string& name = made.mechanism->speciesName(k);
     all.push_back({"ppm_" + name, "1e-6", "mole fraction as the exhaust opens"});
@@ -206,8 +207,7 @@ std::vector<Quantity> engineParticleQuantities(const EngineCase& made) {
   std::vector<Quantity> all{{"mass", "kg", "mass"},
                             {"temperature", "K", "temperature"},
                             {"equivalence_ratio", "1", "(2 C + H/2)/O of its elements"}};
-  for (const std::size_t k : made.species)
-    all.push_back({"X_" + made.mechanism->speciesName(k), "1", "mole fraction"});
+  for (const std::size_t k : made.species) all.push_back({"X_" + made.mechanism->speciesName(k), "1", "mole fraction"});
   return all;
 }
 

@@ -87,8 +87,8 @@ class PreparedEngine : public PreparedRun {
     std::vector<double> all;
     for (std::uint64_t done = 0; done < case_.repeats;) {
       const std::uint64_t end = std::min(done + static_cast<std::uint64_t>(ranks_), case_.repeats);
-      const std::vector<double> some =
-          gatherRepeats(comm_, done, end, width(), [&](std::uint64_t repeat, std::span<double> row) { one(repeat, row); });
+      const std::vector<double> some = gatherRepeats(
+          comm_, done, end, width(), [&](std::uint64_t repeat, std::span<double> row) { one(repeat, row); });
       all.insert(all.end(), some.begin(), some.end());
       if (const int signal = agreedStopRequest(comm_); signal != 0) {
         said.finish();

@@ -75,7 +75,8 @@ void addProcesses(DeckSchema& schema) {
       .add(choiceKey("walls.model", {"woschni", "hohenberg", "nusselt", "constant", "none"},
                      "Correlation of the heat transfer coefficient.")
                .byDefault("woschni"))
-      .add(quantityKey("walls.temperature", units::temperature, "Temperature of the walls.").byDefault("400 K").above(0))
+      .add(
+          quantityKey("walls.temperature", units::temperature, "Temperature of the walls.").byDefault("400 K").above(0))
       .add(quantityKey("walls.head_area", units::area, "Area of the head; that of the bore if not given.")
                .optional()
                .above(0))
@@ -128,8 +129,7 @@ void addProcesses(DeckSchema& schema) {
 }
 
 void addNumerics(DeckSchema& schema) {
-  schema
-      .add(integerKey("sample.particles", "Particles of gas at the start.").byDefault("100").atLeast(1).atMost(1e6))
+  schema.add(integerKey("sample.particles", "Particles of gas at the start.").byDefault("100").atLeast(1).atMost(1e6))
       .add(integerKey("sample.repeats", "Independent repeats, of which means and intervals are.")
                .byDefault("1")
                .atLeast(1)
@@ -138,8 +138,7 @@ void addNumerics(DeckSchema& schema) {
                       "Start of the random numbers: another seed gives another sample, the same seed the same result.")
                .byDefault("1")
                .atLeast(0));
-  schema
-      .add(quantityKey("step.angle", units::angle, "Longest step.").byDefault("0.5 deg").above(0))
+  schema.add(quantityKey("step.angle", units::angle, "Longest step.").byDefault("0.5 deg").above(0))
       .add(numberKey("step.pressure_change", "A step that changes the pressure by a larger part is halved.")
                .byDefault("0.1")
                .above(0))

@@ -104,8 +104,7 @@ double EngineCylinder::others(double from, double size, bool isFirst, RandomStre
     ledger_.injectedEnthalpy += work.enthalpy;
   };
   const auto mix = [&] {
-    if (options_.mixing != EngineMixingModel::none)
-      mixing_.advance(size, options_.mixingTime.at(middle), random, gas_);
+    if (options_.mixing != EngineMixingModel::none) mixing_.advance(size, options_.mixingTime.at(middle), random, gas_);
   };
   if (isFirst) {
     inject();

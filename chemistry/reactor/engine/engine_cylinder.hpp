@@ -26,13 +26,13 @@ struct EngineOptions {
   EngineTable mixingTime;  // s
 
   EngineHeatLaw heat;
-  double jumpConstant = 0;        // of EngineHeatLoss
-  double wallTemperature = 400;   // K
-  double bore = 0;                // m
-  double pistonSpeed = 0;         // m/s, mean
+  double jumpConstant = 0;                 // of EngineHeatLoss
+  double wallTemperature = 400;            // K
+  double bore = 0;                         // m
+  double pistonSpeed = 0;                  // m/s, mean
   double displacement = 0, clearance = 0;  // m3
-  double endArea = 0;             // m2, of head and piston
-  double motoredExponent = 1.35;  // of the pressure without combustion
+  double endArea = 0;                      // m2, of head and piston
+  double motoredExponent = 1.35;           // of the pressure without combustion
 
   std::optional<EngineInjection::Options> injection;
   EngineTable injectionRate;  // kg/s
@@ -40,8 +40,8 @@ struct EngineOptions {
   bool reacts = true;
   ConstantPressureReactor::Options reactions;
 
-  double step = 0;                 // s
-  double pressureTolerance = 0.1;  // a step that changes the pressure by a larger part is halved
+  double step = 0;                  // s
+  double pressureTolerance = 0.1;   // a step that changes the pressure by a larger part is halved
   double temperatureTolerance = 0;  // K, any temperature; 0: none
   int mostHalvings = 6;
   std::uint64_t seed = 1, repeat = 0;
@@ -49,9 +49,9 @@ struct EngineOptions {
 
 // What has been done since the start.
 struct EngineLedger {
-  double work = 0;      // J, on the piston
-  double heat = 0;      // J, to the walls
-  double chemical = 0;  // J, set free
+  double work = 0;                                // J, on the piston
+  double heat = 0;                                // J, to the walls
+  double chemical = 0;                            // J, set free
   double injectedMass = 0, injectedEnthalpy = 0;  // kg, J
   double chemistrySteps = 0;
   double largestDefect = 0;  // of the volume, by which reactions grew otherwise than foreseen: the error of a step

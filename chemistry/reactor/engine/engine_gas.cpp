@@ -63,8 +63,7 @@ double energyOf(const Thermo& thermo, const EngineGas& gas) {
 
 double enthalpyOf(const Thermo& thermo, const EngineGas& gas) {
   double sum = 0;
-  for (std::size_t i = 0; i < gas.count(); ++i)
-    sum += gas.mass[i] * thermo.enthalpyMass(gas.temperature[i], gas.Y(i));
+  for (std::size_t i = 0; i < gas.count(); ++i) sum += gas.mass[i] * thermo.enthalpyMass(gas.temperature[i], gas.Y(i));
   return sum;
 }
 

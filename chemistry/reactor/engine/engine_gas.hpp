@@ -39,9 +39,9 @@ struct EngineTotals {
 };
 
 [[nodiscard]] EngineTotals totalsOf(const Thermo& thermo, const EngineGas& gas);
-[[nodiscard]] double volumeOf(const Thermo& thermo, const EngineGas& gas);       // m3
-[[nodiscard]] double energyOf(const Thermo& thermo, const EngineGas& gas);       // J, with energies of formation
-[[nodiscard]] double enthalpyOf(const Thermo& thermo, const EngineGas& gas);     // J, the same
+[[nodiscard]] double volumeOf(const Thermo& thermo, const EngineGas& gas);         // m3
+[[nodiscard]] double energyOf(const Thermo& thermo, const EngineGas& gas);         // J, with energies of formation
+[[nodiscard]] double enthalpyOf(const Thermo& thermo, const EngineGas& gas);       // J, the same
 [[nodiscard]] std::vector<double> elementsOf(const Mechanism&, const EngineGas&);  // mol of atoms
 
 // Every particle goes along its isentrope, its composition as it is, to the pressure at which all together have this

@@ -49,8 +49,7 @@ PressureRise steepestRise(const EngineTrace& trace) {
 double ringingIntensity(const EngineTrace& trace) {
   const auto at = static_cast<std::size_t>(std::ranges::max_element(trace.pressure) - trace.pressure.begin());
   const double g = trace.gamma[at], swing = pulsation * steepestRise(trace).perTime;
-  return swing * swing / (2 * g * trace.pressure[at]) *
-         std::sqrt(g * trace.gasConstant[at] * trace.temperature[at]);
+  return swing * swing / (2 * g * trace.pressure[at]) * std::sqrt(g * trace.gasConstant[at] * trace.temperature[at]);
 }
 
 }  // namespace lampblack::chemistry

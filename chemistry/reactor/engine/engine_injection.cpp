@@ -108,8 +108,8 @@ void EngineInjection::mergeNearest(EngineGas& gas) const {
   const auto [i, j] = best;
   const double both = gas.mass[i] + gas.mass[j], part = gas.mass[j] / both;
   for (std::size_t k = 0; k < gas.species; ++k) gas.Y(i)[k] += part * (gas.Y(j)[k] - gas.Y(i)[k]);
-  gas.temperature[i] = thermo_.temperatureFromEnthalpy(enthalpy[i] + part * (enthalpy[j] - enthalpy[i]), gas.Y(i),
-                                                       gas.temperature[i]);
+  gas.temperature[i] =
+      thermo_.temperatureFromEnthalpy(enthalpy[i] + part * (enthalpy[j] - enthalpy[i]), gas.Y(i), gas.temperature[i]);
   gas.mass[i] = both;
   gas.firstStep[i] = 0;
   gas.remove(j);

@@ -1,5 +1,5 @@
-// Mixing of the particles of a cylinder by turbulence, at constant pressure: composition and enthalpy alike, so that the
-// variance of any conserved scalar decays as exp(-C t/tau) (docs/theory/engine.md).
+// Mixing of the particles of a cylinder by turbulence, at constant pressure: composition and enthalpy alike, so that
+// the variance of any conserved scalar decays as exp(-C t/tau) (docs/theory/engine.md).
 #pragma once
 
 #include "chemistry/reactor/engine/engine_gas.hpp"
