@@ -10,6 +10,7 @@
 #include "particles/spheres/sphere_measures.hpp"
 #include "particles/trees/packed_tree.hpp"
 #include "particles/trees/tree_burning.hpp"
+#include "particles/trees/tree_growth.hpp"
 #include "particles/trees/tree_parts.hpp"
 #include "particles/trees/tree_rounding.hpp"
 #include "particles/trees/tree_sintering.hpp"
@@ -328,7 +329,7 @@ TEST(TreeSpheres, BreakIntoPartsWithTheirVolumes) {
 
 TEST(TreeSpheres, HangTogetherOverBurntOnes) {
   const PrimaryTrees type = inSpace();
-  for (const std::size_t burnt : {0, 1, 5}) {
+  for (std::size_t burnt = 0; burnt < 9; ++burnt) {
     Tree tree = randomTree(type, 9, 11);
     TreeHead& head = tree.own();
     primariesOf(&head)[burnt].units = {};
@@ -380,6 +381,32 @@ TEST(TreeSpheres, GrowAndSinterAlikeInAnyDirection) {
   EXPECT_NEAR(one.head().collision / other.head().collision, 1, 1e-9);
   for (std::size_t i = 0; i < one.count(); ++i)
     EXPECT_LT(length(difference(turned(by, one.spheres()[i].centre), other.spheres()[i].centre)), 1e-8 * nm);
+}
+
+// One by one where few are expected and as Poisson numbers otherwise.
+TEST(TreeSpheres, ReactByTheirFreeSurface) {
+  const PrimaryTrees type = inSpace();
+  const Tree tree = randomTree(type, 6, 15);
+  std::vector<SphereSurfaces> surfaces;
+  aggregateOf(tree).surfaces(surfaces);
+  TreeGrowth growth(type);
+  growth.setRate(1);
+  RandomStream random(15, 0, 2);
+  for (const double events : {0.2, 40.0}) {
+    const double repeats = 2000 / events, dt = events / tree.head().units[2];
+    std::vector<double> gained(6, 0.0);
+    TreeGrowth::Changes changes;
+    for (int k = 0; k < repeats; ++k) {
+      Tree one = tree;
+      growth.advance(one, dt, random, changes);
+      for (std::size_t i = 0; i < 6; ++i) gained[i] += one.primaries()[i].units[0] - tree.primaries()[i].units[0];
+    }
+    EXPECT_NEAR(changes.reactions / 2000, 1, 4 / std::sqrt(2000.0));
+    for (std::size_t i = 0; i < 6; ++i) {
+      const double expected = changes.reactions * surfaces[i].free / tree.head().surface;
+      EXPECT_NEAR(gained[i], expected, 4 * std::sqrt(expected));
+    }
+  }
 }
 
 TEST(TreeSpheres, ArePackedAsTheyAre) {
