@@ -3,10 +3,10 @@
 //
 //   DeckKeys<ModeOptions> modeKeys() {
 //     DeckKeys<ModeOptions> keys("time.steady.stability");
-//     keys.integer("vectors", &ModeOptions::vectors, rules().atLeast(2).atMost(1000), "Disturbances that are marched.");
-//     keys.quantity("time", units::time, &ModeOptions::time, rules().above(0), "Time of a march.");
-//     keys.choice("norm", &ModeOptions::norm, {{"rms", Norm::rms}, {"maximum", Norm::maximum}}, rules(), "Which norm.");
-//     return keys;
+//     keys.integer("vectors", &ModeOptions::vectors, rules().atLeast(2).atMost(1000), "Disturbances that are
+//     marched."); keys.quantity("time", units::time, &ModeOptions::time, rules().above(0), "Time of a march.");
+//     keys.choice("norm", &ModeOptions::norm, {{"rms", Norm::rms}, {"maximum", Norm::maximum}}, rules(), "Which
+//     norm."); return keys;
 //   }
 //   schema.add(modeKeys().schema());
 //   const ModeOptions options = modeKeys().read(deck);
@@ -42,7 +42,9 @@ namespace lampblack::io {
 // A member of a member, inner(&Case::time, &Times::end).
 template <typename Outer, typename Inner>
 [[nodiscard]] auto inner(Outer outer, Inner member) {
-  return [outer, member](auto& options) -> auto& { return std::invoke(member, std::invoke(outer, options)); };
+  return [ outer, member ](auto& options) -> auto& {
+    return std::invoke(member, std::invoke(outer, options));
+  };
 }
 
 namespace deckkeys {

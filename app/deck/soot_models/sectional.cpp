@@ -29,24 +29,20 @@ DeckKeys<SectionalSootOptions> sectionalKeys() {
               "2025, section 7.2.2).");
   keys.number("nucleation_factor", &Options::nucleationFactor, rules().atLeast(0),
               "Part of the collisions of two PAH molecules that make a nucleus (Wang 2025, eq. 9-23).");
-  keys.number("condensation_efficiency", &Options::condensationEfficiency,
-              rules().atLeast(0).atMost(1),
+  keys.number("condensation_efficiency", &Options::condensationEfficiency, rules().atLeast(0).atMost(1),
               "Part of the collisions of a PAH molecule with an aggregate in which it condenses.");
   keys.choice("aggregation", &Options::aggregation,
-              {{"aggregates", Options::Aggregation::aggregates}, {"spheres", Options::Aggregation::spheres}},
-              rules(),
+              {{"aggregates", Options::Aggregation::aggregates}, {"spheres", Options::Aggregation::spheres}}, rules(),
               "What particles are after they coagulate: aggregates: their primary particles stay as they are "
               "and touch; spheres: they coalesce to one sphere.");
   keys.quantity("coalescence_diameter", units::length, &Options::coalescenceDiameter, rules().optional().above(0),
                 "Particles smaller than this diameter melt into the particle they collide with; absent: none do.");
   keys.choice("active_sites", &Options::activeSites,
-              {{"aggregate", Options::ActiveSites::aggregate}, {"primary", Options::ActiveSites::primary}},
-              rules(),
+              {{"aggregate", Options::ActiveSites::aggregate}, {"primary", Options::ActiveSites::primary}}, rules(),
               "The mean size in the fraction alpha of active sites: carbon atoms per aggregate or per primary "
               "particle.");
   keys.choice("growth_scheme", &Options::growthScheme,
-              {{"upwind", Options::GrowthScheme::upwind}, {"limited", Options::GrowthScheme::limited}},
-              rules(),
+              {{"upwind", Options::GrowthScheme::upwind}, {"limited", Options::GrowthScheme::limited}}, rules(),
               "How growth and oxidation move soot between sections: upwind: first order, spreads the "
               "distribution (Wang 2025, eqs. 9-41 to 9-44); limited: second order.");
   keys.choice("kernel", &Options::kernel,

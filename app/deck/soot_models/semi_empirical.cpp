@@ -34,12 +34,11 @@ DeckKeys<SemiEmpiricalOptions> semiEmpiricalKeys() {
   keys.number("coagulation_factor", &Options::coagulation, factor,
               "Factor on the rate of free-molecular coagulation of equal spheres: bigger makes fewer and larger "
               "particles.");
-  keys.choice(
-      "oxygen", &Options::oxygen,
-      {{"none", Oxygen::none}, {"leung", Oxygen::leung}, {"lee", Oxygen::lee}, {"nagle", Oxygen::nagle}},
-      rules().optional(),
-      "Law of oxidation by O2: leung: Leung, Lindstedt, Jones (1991); lee: Lee, Thring, Beer (1962); "
-      "nagle: Nagle, Strickland-Constable (1962); none: O2 does not oxidise.");
+  keys.choice("oxygen", &Options::oxygen,
+              {{"none", Oxygen::none}, {"leung", Oxygen::leung}, {"lee", Oxygen::lee}, {"nagle", Oxygen::nagle}},
+              rules().optional(),
+              "Law of oxidation by O2: leung: Leung, Lindstedt, Jones (1991); lee: Lee, Thring, Beer (1962); "
+              "nagle: Nagle, Strickland-Constable (1962); none: O2 does not oxidise.");
   keys.number("oxidation_factor", &Options::oxidationFactor, factor,
               "Factor on the rates of all oxidation of soot; 1 is the published rate.");
   return keys;

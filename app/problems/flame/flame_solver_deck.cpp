@@ -76,15 +76,13 @@ DeckKeys<FlameContinuationOptions> continuationKeys() {
   keys.number("lowest_load", &Options::lowestLoad, rules().atLeast(0),
               "The branch ends where the load is below this. The load is a factor on the strain rates and mass "
               "fluxes of the deck.");
-  keys.number(
-      "highest_load", &Options::highestLoad, rules().optional().above(0),
-      "The branch ends where the load (factor on the strain rates and mass fluxes of the deck) is above this.");
+  keys.number("highest_load", &Options::highestLoad, rules().optional().above(0),
+              "The branch ends where the load (factor on the strain rates and mass fluxes of the deck) is above this.");
   keys.quantity("lowest_temperature", units::temperature, &Options::lowestPeakTemperature,
                 temperatureRules().optional(),
                 "The branch ends where the largest temperature of the flame is below this.");
-  keys.integer(
-      "turning_points", &Options::maximumTurningPoints, rules().byDefault("1").atLeast(1),
-      "The branch ends after this number of turning points; from a burning flame the first is extinction.");
+  keys.integer("turning_points", &Options::maximumTurningPoints, rules().byDefault("1").atLeast(1),
+               "The branch ends after this number of turning points; from a burning flame the first is extinction.");
   keys.integer("maximum_points", &Options::maximumPoints, rules().atLeast(2),
                "The branch ends after this number of flames.");
   keys.number("first_step", along(&ContinuationOptions::firstStep), rules().above(0),

@@ -139,9 +139,8 @@ DeckKeys<TimeControl::Branch> branchKeys() {
               "The branch ends where the load is above this.");
   keys.quantity("lowest_temperature", units::temperature, &Branch::lowestPeakTemperature, temperatureRules().optional(),
                 "The branch ends where the largest temperature is below this.");
-  keys.integer(
-      "turning_points", &Branch::turningPoints, rules().atLeast(1),
-      "The branch ends after this number of turning points; from a burning flame the first is extinction.");
+  keys.integer("turning_points", &Branch::turningPoints, rules().atLeast(1),
+               "The branch ends after this number of turning points; from a burning flame the first is extinction.");
   keys.integer("maximum_points", &Branch::points, rules().atLeast(2), "The branch ends after this number of states.");
   keys.number("first_step", &Branch::firstStep, rules().above(0).below(1),
               "Change of the load from the first state of the branch to the second, over the load of the first.");

@@ -62,8 +62,8 @@ DeckKeys<SteadyControl> steadyKeys() {
                 "time, which is what is in the "
                 "domain over what flows through it; without a flow through it the domain's size over its RMS "
                 "velocity, or over the conduction of heat where that is faster.");
-  keys.choice("norm", &SteadyControl::norm,
-              {{"maximum", Steadiness::Norm::Maximum}, {"rms", Steadiness::Norm::Rms}}, rules().onlyWith(inTime),
+  keys.choice("norm", &SteadyControl::norm, {{"maximum", Steadiness::Norm::Maximum}, {"rms", Steadiness::Norm::Rms}},
+              rules().onlyWith(inTime),
               "maximum: the change of the cell that changes most counts; rms: the root of the mean square over "
               "the domain, which a small part that moves to and fro does not keep up.");
   keys.quantity("after", units::time, &SteadyControl::after, rules().atLeast(0).onlyWith(inTime),
@@ -122,8 +122,7 @@ DeckKeys<SteadyRounds::Options> roundsKeys() {
               "Change of temperature, mass fractions and velocity of the gas from one "
               "round to the next, of the range of each in the domain, with which the rounds end. What the gas "
               "feels of the particles has the noise of their averages, by which it differs from round to round.");
-  keys.integer("blocks", &Rounds::blocks,
-               rules().atLeast(static_cast<double>(leastBlocks)).onlyWith(ofPopulations()),
+  keys.integer("blocks", &Rounds::blocks, rules().atLeast(static_cast<double>(leastBlocks)).onlyWith(ofPopulations()),
                "Blocks (particles.statistics.block) of the averages of the last round; "
                "those before, while "
                "the gas still changes by more than three times 'agreement', have the least number.");

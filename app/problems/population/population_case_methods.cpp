@@ -58,10 +58,10 @@ DeckKeys<MethodInput> inputKeys() {
 
   DeckKeys<MethodInput> keys("methods.*");
   keys.word("type", &MethodInput::type, types, rules().required(),
-             "Equal weights: dsmc, constant_volume (stepwise), constant_number_mass, constant_number_number; "
-             "different weights: mmc, wfmc, samwfmc, sammc, swa; pairs: different weights, pairs drawn in time "
-             "steps; hybrid: small particles as numbers; sections "
-             "and moments: sectional, qmom, momic.");
+            "Equal weights: dsmc, constant_volume (stepwise), constant_number_mass, constant_number_number; "
+            "different weights: mmc, wfmc, samwfmc, sammc, swa; pairs: different weights, pairs drawn in time "
+            "steps; hybrid: small particles as numbers; sections "
+            "and moments: sectional, qmom, momic.");
   keys.choice("unbiased_moments", &MethodInput::unbiased, {{"M0", 0}, {"M1", 1}, {"M2", 2}, {"M3", 3}},
               rules().formerly("claims").byDefault("[M0, M1, M2, M3]"),
               "Moments in which the method has to show no bias; [] where it is known to have one.");
@@ -84,8 +84,7 @@ DeckKeys<MethodInput> inputKeys() {
               optional({"wfmc", "samwfmc", "sammc"}),
               "Fraction function of coagulation alpha: the part of the smaller weight that coagulates in an "
               "event (Wang 2025, eqs. 4-11 to 4-14).");
-  keys.choice("fraction_of", mc(&Mc::fractionOf),
-              {{"volumes", FractionOf::volumes}, {"weights", FractionOf::weights}},
+  keys.choice("fraction_of", mc(&Mc::fractionOf), {{"volumes", FractionOf::volumes}, {"weights", FractionOf::weights}},
               rules().optional().onlyWith("methods.*.fraction", {"hyperbolic", "exponential", "stepwise"}),
               "What of the two particles the fraction function compares: volumes or weights.");
   keys.number("fraction_constant", mc(&Mc::fractionConstant),

@@ -73,8 +73,7 @@ DeckKeys<CollisionKernelOptions> coagulationKeys() {
   keys.number("efficiency_exponent", &Options::efficiencyExponent, rules().optional().above(0),
               "Exponent in the efficiency of collisions of small particles, 1 / (1 + (efficiency_diameter / "
               "d)^efficiency_exponent): bigger makes a sharper limit.");
-  keys.number("enhancement", &Options::enhancement,
-              with({"free_molecular", "transition", "transition_fuchs"}).above(0),
+  keys.number("enhancement", &Options::enhancement, with({"free_molecular", "transition", "transition_fuchs"}).above(0),
               "Factor by which van der Waals forces enhance free-molecular collisions.");
   keys.quantity("shear_rate", units::frequency, &Options::shearRate, with({"shear"}).above(0),
                 "Velocity gradient of the gas.");
@@ -222,8 +221,7 @@ BreakageOptions readBreakage(const Deck& deck) {
   BreakageOptions options = breakageKeys().read(deck);
   scaleSizeDependent(deck, breakageKeys().path(), options.rate, options.exponent);
   if (options.daughters == BreakageOptions::Daughters::uniform && options.fragments != 2)
-    throw deck.error("processes.breakage.daughters",
-                     "uniform daughters are two; expected 'fragments: 2' or 'equal'");
+    throw deck.error("processes.breakage.daughters", "uniform daughters are two; expected 'fragments: 2' or 'equal'");
   return options;
 }
 
