@@ -180,6 +180,21 @@ TEST(GivenVolume, EnergyIsWhatTheWallsGive) {
   EXPECT_NEAR(change / work, 1, 1e-6);
 }
 
+// Reactions are those of the density of the moment.
+TEST(GivenVolume, ReactionsSeeTheDensityOfTheMoment) {
+  const GasState gas = hydrogenGas("H2: 2, O2: 1, N2: 3.76, H: 0.02, OH: 0.03", 1500, 2e5);
+  GasState compressed = gas;
+  compressed.pressure *= 2;
+  ClosedReactor reactor(hydrogen(), gas, Held::Density, std::nullopt, nullptr, VolumeLaw::table({0, 1e-6}, {2, 1}));
+  ClosedReactor constant(hydrogen(), compressed, Held::Density);
+  const auto y = reactor.initialState();
+  std::vector<double> f(y.size()), g(y.size());
+  ASSERT_TRUE(reactor.rates(2e-6, y.data(), f.data()));
+  ASSERT_TRUE(constant.rates(0, y.data(), g.data()));
+  for (std::size_t i = 0; i < f.size(); ++i) EXPECT_NEAR(f[i], g[i], 1e-9 * std::abs(g[i])) << i;
+  EXPECT_NEAR(reactor.density(2e-6, y.data()), constant.density(0, y.data()), 1e-12);
+}
+
 // The row of the temperature, through the work of the gas, by central differences.
 TEST(GivenVolume, JacobianAgreesWithDifferencesOfTheRates) {
   const GasState gas = hydrogenGas("H2: 2, O2: 1, N2: 3.76, H: 0.02, OH: 0.03, H2O: 0.3", 1500, 2e5);
