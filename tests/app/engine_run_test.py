@@ -17,8 +17,8 @@ np = running.package("numpy")
 DECK = """problem: engine
 mechanism: hydrogen_h2o2_10.yaml
 engine: {bore: 80 mm, stroke: 90 mm, rod: 150 mm, compression_ratio: 14, speed: 1500 1/min, start: -120 deg, end: 120 deg}
-charge: {temperature: 430 K, pressure: 1 bar, fuel: "H2: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 0.2, temperature_deviation: 10 K, exhaust: 0.1}
-cycles: {residual: 0.05, most: 4, angle_tolerance: 1 deg, temperature_tolerance: 3 K}
+charge: {temperature: 520 K, pressure: 1 bar, fuel: "H2: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 0.2, temperature_deviation: 10 K, exhaust: 0.1}
+cycles: {residual: 0.05, most: 8, angle_tolerance: 6 deg, temperature_tolerance: 10 K}
 mixing: {time: [10 ms]}
 walls: {temperature: 420 K}
 injection: {fuel: "H2: 1", angles: [-100 deg, -95 deg, -70 deg, -65 deg], rates: [0 g/s, 0.5 g/s, 0.5 g/s, 0 g/s], most_particles: 10}
