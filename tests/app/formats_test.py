@@ -165,6 +165,8 @@ def main(executable: str, *mpiexec: str) -> int:
         runs["trees"] = (CASES / "reactor/silica_batch/deck.yaml", *running.settings(
             "time.end=10 ms", "output.species=[H2O]", "particles.number=50", "particles.repeats=2", "particles.bins=5",
             "particles.tables_at=[10 ms]", "particles.classes={collision_diameter: [1 nm], primaries: [2]}"))
+        runs["trees_in_space"] = (CASES / "reactor/silica_batch/spheres.yaml", *running.settings(
+            "time.end=10 ms", "particles.number=50", "particles.repeats=2", "particles.tables_at=[10 ms]"))
         runs["soot_trees"] = (CASES / "reactor/plug_flow_soot/deck.yaml", *running.settings(
             "reactor.length=5 mm", "output.spacing=5 mm", "particles.description=trees", "particles.repeats=2",
             "particles.number=50", "particles.bins=5", "particles.fragmentation=true"))
