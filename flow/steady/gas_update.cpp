@@ -22,6 +22,7 @@ constexpr int mostGasIterations = 60;
 // The same where the load is an unknown, which is a ratio of what two systems give.
 constexpr double loadedReduction = 0.02;
 constexpr double smallRise = 1e-4;  // of the load, for differences
+constexpr double roundOff = 1e-13;  // of what flows through a cell
 
 }  // namespace
 
@@ -68,6 +69,18 @@ void GasUpdate::findLeft(const State& state, const FlowResidual& residual, std::
     heat -= enthalpies_[k] * right[k];
   }
   right[n_] = heat / (residual.properties().heatCapacity[c] * kelvins);
+}
+
+bool GasUpdate::isAtRest(const State& state, const FlowResidual& residual, std::span<const double> through) {
+  int rests = 1;
+  for (std::size_t c = 0; c < through.size() && rests; ++c) {
+    double* left = &right_[c * (n_ + 1)];
+    findLeft(state, residual, c, left);
+    for (std::size_t k = 0; k <= n_; ++k) rests = rests && std::abs(left[k]) <= roundOff * through[c];
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &rests, 1, MPI_INT, MPI_MIN, context_.mesh.comm);
+  std::ranges::fill(shares_, 1.0);
+  return rests;
 }
 
 // What is left, and its derivatives by all that acts in the cell.

@@ -212,7 +212,9 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
     setInertia(state);
     std::optional<GasUpdate::LoadAsUnknown> load;
     if (control_) load.emplace(*control_, *beside_);
-    const GasUpdate::Result gas = gas_.advance(state, residual_, inertia_, load);
+    GasUpdate::Result gas;
+    if (control_ || !gas_.isAtRest(state, residual_, flowInertia_))
+      gas = gas_.advance(state, residual_, inertia_, load);
     if (control_) control_->scale(state, control_->load() + gas.loadChange);
     keepMass(state, massOf(*before_));
     outcome.gasIterations = gas.iterations;

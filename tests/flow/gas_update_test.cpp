@@ -221,5 +221,42 @@ TEST(GasUpdates, LeaveATenthOfATrace) {
   EXPECT_LT(furthest(hydroxyl, comes), 1e-3);
 }
 
+// Air of one temperature, whose velocities differ so that mass is left in the cells: the gas itself has nothing to
+// change, and is known to rest until one cell's temperature or composition says otherwise.
+TEST(GasUpdates, KnowGasThatRests) {
+  Gas& gas = Gas::hydrogen();
+  const std::size_t argon = gas.mechanism.speciesIndex("AR"), nitrogen = gas.mechanism.speciesIndex("N2");
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const Slot slot(air);
+  Box b(slot.spec, slot.conditions, {}, MPI_COMM_WORLD);
+  State state = b.state([&](const auto& x) { return Box::Local{{0.0, 0.5 + 20.0 * x[1]}, 300.0, air}; });
+  TransportOperator transport(b.context, state);
+  transport.initialise(state, 1e-6);
+  const std::vector<Operator*> operators{&transport};
+  FlowResidual residual(b.context, state, VelocityScheme::Limited, operators);
+  GasUpdate update(b.context, state, operators);
+  const std::vector<double> through(at(b.mesh.owned), 1e-3);
+  const auto isAtRest = [&](const State& gasOf) {
+    residual.evaluate(gasOf);
+    return update.isAtRest(gasOf, residual, through);
+  };
+  EXPECT_TRUE(isAtRest(state));
+  for (const double share : update.shares()) EXPECT_EQ(share, 1.0);
+  int rank = 0;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  State warmer = state, mixed = state;
+  if (rank == 0) {  // the last cell of one rank tells all
+    const std::size_t last = at(b.mesh.owned - 1), n = at(state.species);
+    warmer.temperature[last] += 1e-3;
+    warmer.enthalpy[last] += 1.0;
+    mixed.Y[last * n + argon] += 1e-6;
+    mixed.Y[last * n + nitrogen] -= 1e-6;
+  }
+  warmer.updateHalo(b.context.halo);
+  mixed.updateHalo(b.context.halo);
+  EXPECT_FALSE(isAtRest(warmer));
+  EXPECT_FALSE(isAtRest(mixed));
+}
+
 }  // namespace
 }  // namespace lampblack::test
