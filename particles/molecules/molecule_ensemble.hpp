@@ -33,7 +33,7 @@ class MoleculeEnsemble final : public StochasticPopulation {
   void applyDeferred() override;
   [[nodiscard]] std::size_t watchedSpecies() const override { return SootSpecies::C2H2; }
   Exchange takeExchange() override;
-  [[nodiscard]] std::vector<Quantity> processes() const override;
+  [[nodiscard]] std::vector<ParticleProcess> processes() const override;
   [[nodiscard]] std::vector<double> amountsOfProcesses() const override;
   [[nodiscard]] std::vector<double> resampled() const override;
   void dilute(double factor) override;

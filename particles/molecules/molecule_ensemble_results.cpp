@@ -8,17 +8,30 @@
 namespace lampblack::particles {
 namespace {
 
-// What happens besides events of molecules.
-struct Happening {
-  const char *name, *description;
-  double MoleculeExchange::*number;
-};
-constexpr Happening happenings[] = {
-    {"inceptions", "pairs of molecules that became a particle", &MoleculeExchange::inceptions},
-    {"coagulations", "collisions of particles that stuck", &MoleculeExchange::coagulations},
-    {"condensations", "molecules of the gas that condensed on a particle", &MoleculeExchange::condensations},
-    {"came", "single molecules that came as the gas had more of them", &MoleculeExchange::came},
-    {"went", "single molecules that went as the gas had fewer of them", &MoleculeExchange::went}};
+// What happens besides events of molecules. Those that come and go do so where the gas does not know of particles.
+const std::vector<ProcessOf<MoleculeExchange>>& happenings() {
+  using E = MoleculeExchange;
+  static const SpeciesExchanged molecule{{MoleculeOptions::precursorAt}, {}};
+  static const std::vector<ProcessOf<E>> all{
+      {{{"inceptions", "1/m^3", "pairs of molecules that became a particle"}, molecule}, &E::inceptions},
+      {{{"coagulations", "1/m^3", "collisions of particles that stuck"}}, &E::coagulations},
+      {{{"condensations", "1/m^3", "molecules of the gas that condensed on a particle"}, molecule}, &E::condensations},
+      {{{"came", "1/m^3", "single molecules that came as the gas had more of them"}}, &E::came},
+      {{{"went", "1/m^3", "single molecules that went as the gas had fewer of them"}}, &E::went}};
+  return all;
+}
+
+// Of one event of the edge, where both O2 and OH oxidise.
+SpeciesExchanged exchangedBy(std::size_t process) {
+  std::array<double, pahProcessCount> events{};
+  events[process] = 1;
+  std::array<double, SootSpecies::fixed + 1> gas{};
+  addGasOfEvents(events, 0.5, gas);
+  SpeciesExchanged exchanged;
+  for (std::size_t k = 0; k < gas.size(); ++k)
+    if (gas[k] != 0) (gas[k] < 0 ? exchanged.takes : exchanged.gives).push_back(k);
+  return exchanged;
+}
 
 std::string nameOf(const PahProcessRow& process) {
   return std::string("events_") + process.name;
@@ -26,16 +39,15 @@ std::string nameOf(const PahProcessRow& process) {
 
 }  // namespace
 
-std::vector<Quantity> MoleculeEnsemble::processes() const {
-  std::vector<Quantity> all;
-  for (const Happening& one : happenings) all.push_back({one.name, "1/m^3", one.description});
-  for (const PahProcessRow& process : pahProcesses) all.push_back({nameOf(process), "1/m^3", process.description});
+std::vector<ParticleProcess> MoleculeEnsemble::processes() const {
+  std::vector<ParticleProcess> all = namesOf(happenings());
+  for (std::size_t p = 0; p < pahProcessCount; ++p)
+    all.push_back({{nameOf(pahProcesses[p]), "1/m^3", pahProcesses[p].description}, exchangedBy(p)});
   return all;
 }
 
 std::vector<double> MoleculeEnsemble::amountsOfProcesses() const {
-  std::vector<double> all;
-  for (const Happening& one : happenings) all.push_back(taken_.*one.number);
+  std::vector<double> all = amountsOf(happenings(), taken_);
   all.insert(all.end(), taken_.events.begin(), taken_.events.end());
   return all;
 }
@@ -58,8 +70,8 @@ std::vector<Quantity> MoleculeEnsemble::columns() const {
       {"soot_sintering_level", "1", "mean over particles of their mean sintering level; of one primary 1"},
       {"soot_C", "1/m^3", "atoms of carbon in all particles"},
       {"soot_H", "1/m^3", "atoms of hydrogen in all particles"}};
-  for (const Happening& one : happenings)
-    all.push_back({std::string("soot_") + one.name, "1/m^3", std::string(one.description) + ", since the beginning"});
+  for (const ParticleProcess& one : happenings())
+    all.push_back({"soot_" + one.name, one.unit, one.description + ", since the beginning"});
   for (const PahProcessRow& process : pahProcesses)
     all.push_back({"soot_" + nameOf(process), "1/m^3", std::string(process.description) + ", since the beginning"});
   all.push_back(
@@ -87,7 +99,7 @@ std::vector<double> MoleculeEnsemble::values(const ParticleGas&) const {
                              t.sinteringLevel,
                              t.carbon,
                              t.hydrogen};
-  for (const Happening& one : happenings) values.push_back(total_.*one.number);
+  for (const double amount : amountsOf(happenings(), total_)) values.push_back(amount);
   double voids = 0;
   for (std::size_t k = 0; k < pahProcessCount; ++k) {
     values.push_back(total_.events[k]);
