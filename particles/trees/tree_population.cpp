@@ -250,8 +250,7 @@ std::vector<TreeEvent> treeEvents(const TreeMaterial& material) {
   const SpeciesExchanged bridge{{}, {TreeSites::product}}, molecule{{TreeSites::precursor}, {TreeSites::product}};
   const SpeciesExchanged dimers = soot != nullptr ? exchangedByDimers(soot->soot) : SpeciesExchanged{};
   const SpeciesExchanged born = soot != nullptr ? dimers : material.sites() != nullptr ? molecule : SpeciesExchanged{};
-  add("inceptions", "particles born", born, &E::inceptions, "inception", &R::inceptions,
-      &C::inceptions);
+  add("inceptions", "particles born", born, &E::inceptions, "inception", &R::inceptions, &C::inceptions);
   add("coagulations", "collisions of particles", {}, &E::coagulations, "coagulation", &R::coagulations,
       &C::coagulations);
   if (material.sites() != nullptr) {

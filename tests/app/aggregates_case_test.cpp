@@ -47,16 +47,16 @@ TEST(AggregatesCase, RowsOfWhatIsBuiltAndOfItsTime) {
       "time: {end: 1 s, outputs: 3, spacing: logarithmic, first: 0.01 s}");
   EXPECT_EQ(colliding.rows(), 4U);
   EXPECT_NEAR(colliding.times[2], 0.1, 1e-15);
-  EXPECT_EQ(colliding.population.sintering.mechanism, SinteringMechanism::none);
+  EXPECT_EQ(colliding.population.material.sintering.mechanism, SinteringMechanism::none);
 }
 
 TEST(AggregatesCase, SilicaHasItsLawAndDensity) {
   const AggregatesCase made = readAggregatesCase(Deck::parse(
       "problem: aggregates\nspheres: {radius: 10 nm, material: silica}\nbuild: {by: equal_pairs}\n" + inHotGas,
       "deck.yaml", {}, aggregatesSchema()));
-  EXPECT_EQ(made.population.density, silica().density);
-  EXPECT_EQ(made.population.sintering.mechanism, SinteringMechanism::viscousFlow);
-  EXPECT_EQ(made.population.sintering.prefactor, silica().sintering.prefactor);
+  EXPECT_EQ(made.population.material.density, silica().density);
+  EXPECT_EQ(made.population.material.sintering.mechanism, SinteringMechanism::viscousFlow);
+  EXPECT_EQ(made.population.material.sintering.prefactor, silica().sintering.prefactor);
 }
 
 TEST(AggregatesCase, RefusesWhatHasNoMeaning) {

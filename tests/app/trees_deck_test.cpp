@@ -90,9 +90,11 @@ TEST(TreesDeck, PrimariesAreSpheresInSpaceWhereItSaysSo) {
   EXPECT_EQ(options.shape, TreeShape::spheres);
   EXPECT_EQ(options.size, CollisionSize::shadow);
   EXPECT_EQ(requestOf(silica, "  material: silica\n").options.shape, TreeShape::primaries);
-  EXPECT_THAT(messageOf([&] { (void)requestOf(silica, "  material: silica\n  collision_size: shadow\n"); }),
-              testing::HasSubstr("only particles with 'geometry: spheres' have a shadow"));
-  EXPECT_THAT(messageOf([&] { (void)requestOf(silica, spheres + "  sintering: {size: volume_to_surface}\n"); }),
+  EXPECT_THAT(
+      test::messageOf<InputError>([&] { (void)requestOf(silica, "  material: silica\n  collision_size: shadow\n"); }),
+      testing::HasSubstr("only particles with 'geometry: spheres' have a shadow"));
+  EXPECT_THAT(test::messageOf<InputError>(
+                  [&] { (void)requestOf(silica, spheres + "  sintering: {size: volume_to_surface}\n"); }),
               testing::HasSubstr("the size is that of the 'smaller'"));
 }
 

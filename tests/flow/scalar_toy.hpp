@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "flow/operator.hpp"
 #include "flow/scalar_block.hpp"
 #include "tests/every_module.hpp"
 #include "tests/flow/flow_fixture.hpp"

@@ -186,8 +186,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     const std::size_t n = case_.mechanism->numSpecies();
     const Thermo thermo(*case_.mechanism);
     const double T = start[n];
-    return (thermo.enthalpyMass(T, start.first(n)) - thermo.enthalpyMass(T, y.first(n))) /
-           thermo.cpMass(T, y.first(n));
+    return (thermo.enthalpyMass(T, start.first(n)) - thermo.enthalpyMass(T, y.first(n))) / thermo.cpMass(T, y.first(n));
   }
 
   const ReactorCase& case_;
