@@ -25,7 +25,8 @@ std::string names(const std::vector<std::string>& all) {
 // Those of other descriptions of soot that mean nothing here.
 constexpr const char* meaningless[] = {"particles.sticking",      "particles.alpha",        "particles.site_density",
                                        "particles.oh_efficiency", "particles.inception_by", "particles.heavy_particles",
-                                       "particles.keep_hydrogen", "particles.active_sites"};
+                                       "particles.keep_hydrogen", "particles.active_sites", "particles.surface",
+                                       "particles.alpha_table"};
 
 void addCollisions(DeckSchema& schema) {
   schema
@@ -39,12 +40,14 @@ void addCollisions(DeckSchema& schema) {
                      "Factor of the collisions of pairs that become a particle, besides what sticks.")
                .byDefault("1")
                .atLeast(0)
-               .atMost(1))
+               .atMost(1)
+               .onlyWith(section + ".inception", {"pairs"}))
       .add(numberKey(section + ".condensation_efficiency",
                      "Factor of the collisions of molecules of the gas with particles, besides what sticks.")
                .byDefault("1")
                .atLeast(0)
-               .atMost(1))
+               .atMost(1)
+               .onlyWith(section + ".inception", {"pairs"}))
       .add(choiceKey(section + ".sticks", {"always", "smaller", "larger", "together", "reduced", "by_size"},
                      "Which molecules stick to each other and to particles, of which the largest molecule counts: all; "
                      "where the smaller one, the larger one, both together, or the product over the sum of both has "
@@ -116,7 +119,7 @@ void addMoleculeKeys(DeckSchema& schema) {
                      "sinter by particles.sintering, and become one; spheres: all molecules are in one primary.")
                .byDefault("primaries"))
       .add(
-          stringKey(section + ".processes",
+          choiceKey(section + ".processes", pahProcessNames(),
                     "Processes of molecules that take place; absent: all. Their names are those of docs/theory/pah.md.")
               .list()
               .optional())
@@ -145,10 +148,16 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
     throw deck.error(inception,
                      "as_in_gas needs a gas that stays as it is given, 'problem: prescribed_gas' with 'exchange: "
                      "one_way'; where particles take from the gas, use 'pairs'");
+  if (o.inception == Inception::asInGas && deck.isGiven("particles.condensation"))
+    throw deck.error("particles.condensation",
+                     "has no meaning with 'inception: as_in_gas', where molecules are particles that collide; leave it "
+                     "out, or set particles.coagulation");
+  if (o.inception == Inception::pairs) {
+    o.inceptionEfficiency = deck.number(section + ".inception_efficiency");
+    o.condensationEfficiency =
+        deck.boolean("particles.condensation") ? deck.number(section + ".condensation_efficiency") : 0;
+  }
   if (!deck.boolean("particles.inception")) o.inception = Inception::none;
-  o.inceptionEfficiency = deck.number(section + ".inception_efficiency");
-  o.condensationEfficiency =
-      deck.boolean("particles.condensation") ? deck.number(section + ".condensation_efficiency") : 0;
   o.sticking = readSticking(deck);
   o.growthFactor = deck.number(section + ".growth_factor");
   o.growthFactorFrom = deck.integer<std::size_t>(section + ".growth_factor_from");

@@ -65,9 +65,6 @@ bool MoleculeEnsemble::hasPrecursors(const ParticleGas& gas) const {
 void MoleculeEnsemble::advance(const ParticleGas& gas, double dt) {
   molecules_->advance(gas, dt);
 }
-void MoleculeEnsemble::applyDeferred() {
-  molecules_->applyDeferred();
-}
 void MoleculeEnsemble::dilute(double factor) {
   molecules_->dilute(factor);
 }
@@ -125,7 +122,6 @@ void MoleculeEnsemble::unpack(std::span<const double> state) {
 }
 
 std::vector<double> MoleculeEnsemble::content() {
-  molecules_->applyDeferred();
   const std::vector<double> packed = molecules_->pack();
   const std::span<const double> all = moleculeRows.of(packed);
   return {all.begin(), all.end()};

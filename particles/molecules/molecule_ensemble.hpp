@@ -30,7 +30,7 @@ class MoleculeEnsemble final : public StochasticPopulation {
   [[nodiscard]] double absorption(double temperature, double volumeFraction) const override;
   [[nodiscard]] bool hasPrecursors(const ParticleGas& gas) const override;
   void advance(const ParticleGas& gas, double dt) override;
-  void applyDeferred() override;
+  void applyDeferred() override {}  // nothing is put off
   [[nodiscard]] std::size_t watchedSpecies() const override { return SootSpecies::C2H2; }
   Exchange takeExchange() override;
   [[nodiscard]] std::vector<ParticleProcess> processes() const override;

@@ -183,9 +183,10 @@ void MoleculePopulation::grow(MoleculeParticle& p, double dt) {
   if (changed) type_.set(p, std::move(*changed));
 }
 
-void MoleculePopulation::sinter(MoleculeParticle& p) {
+void MoleculePopulation::sinter(MoleculeParticle& p, double dt) {
   if (p.tree.count() == 1) return;
   fusions_.clear();
+  p.tree.own().time = type_.trees().clock() - dt;  // the jumps before and behind are half of the step each
   TreeSintering::Changes changes;
   sintering_.advance(p.tree, type_.trees().clock(), changes);
   fused_ += changes.fused;
@@ -204,7 +205,7 @@ void MoleculePopulation::change(double dt) {
           dt, [&](double time) { condense(p, time); }, [&](double time) { grow(p, time); });
     else
       grow(p, dt);
-    sinter(p);
+    sinter(p, dt);
     return true;
   });
   exchange_.condensations += weight * condensed_;
@@ -253,13 +254,6 @@ void MoleculePopulation::followGas() {
     });
     return;
   }
-}
-
-void MoleculePopulation::applyDeferred() {
-  method_.changeParticles([&](MoleculeParticle& p, double) {
-    sinter(p);
-    return true;
-  });
 }
 
 }  // namespace lampblack::particles

@@ -55,8 +55,6 @@ class MoleculePopulation {
     births_.dilute(factor);
   }
   [[nodiscard]] MoleculeExchange takeExchange() { return std::exchange(exchange_, {}); }
-  // Sinters all particles up to the present time.
-  void applyDeferred();
 
   [[nodiscard]] std::size_t size() const { return method_.size(); }
   [[nodiscard]] double weight() const { return method_.weight(); }  // 1/m3 for a numerical particle
@@ -121,7 +119,7 @@ class MoleculePopulation {
   void change(double dt);
   void condense(MoleculeParticle& p, double dt);
   void grow(MoleculeParticle& p, double dt);
-  void sinter(MoleculeParticle& p);
+  void sinter(MoleculeParticle& p, double dt);
   // Single molecules as the gas has them.
   void followGas();
   [[nodiscard]] bool isOfGas(const MoleculeParticle& p) const {

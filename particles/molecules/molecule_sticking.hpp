@@ -1,5 +1,5 @@
 // Which molecules stick when they meet: none below a number of rings, as the program MOpS has it, or a probability that
-// rises with the smaller one's mass. docs/theory/pah.md.
+// rises with the smaller one's mass. docs/theory/molecules_in_particles.md.
 #pragma once
 
 #include <algorithm>

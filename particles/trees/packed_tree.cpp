@@ -114,6 +114,7 @@ Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial
   for (std::uint32_t i = 0; pool.hasSpheres() && i < tree->count; ++i) {
     const auto s = state.next<Sphere>();
     const std::uint32_t parent = i == 0 ? 0 : necksOf(tree)[i - 1].left;
+    if (!(s.radius > 0) || !(s.neck >= 0 && s.neck < s.radius * s.radius)) throw damaged();
     if (i > 0 && (parent >= i || necksOf(tree)[i - 1].right != i)) throw damaged();
     spheresOf(tree)[i] = {s.centre, s.radius, material.volume(primariesOf(tree)[i].units), s.neck, parent};
   }

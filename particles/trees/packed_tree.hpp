@@ -1,5 +1,5 @@
 // A tree as a row of a packed population (particles/stochastic/particle_rows.hpp): what moves it and how large it is,
-// the row's length, its sums, its primaries and its necks.
+// the row's length, its sums, its primaries, its necks and, of trees with places in space, its spheres.
 #pragma once
 
 #include <span>

@@ -47,7 +47,7 @@ class PrimaryTrees {
     TreeHead* head = pool_->allocate(1);
     head->count = 1;
     *primariesOf(head) = {units, treeDiameter(material_->volume(units))};
-    if (spheres_) TreeSpheres::start(*head);
+    if (spheres_) spheres_->start(*head);
     measure(*head);
     return Tree(head);
   }

@@ -214,6 +214,7 @@ void TreePopulation::change(Reactions& reactions, const typename Reactions::Sums
     if (fate == TreeFate::changed) sintering_.advanceLazily(tree, sintered, true);
     return fate != TreeFate::gone;
   });
+  if (TreeSpheres* spheres = type_.spheres()) sintered.fused += spheres->takeMerged();  // by growth
   record(sintered);
   reactions.recordGrowth(weight, exchange_, counters_);
   if constexpr (requires { reactions.takeFragments(); }) {

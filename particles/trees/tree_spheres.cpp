@@ -26,9 +26,9 @@ const SinteringLaw& checkedLaw(const TreeMaterial& material) {
 TreeSpheres::TreeSpheres(const TreeMaterial& material, CollisionSize size, double sinteringTolerance)
     : material_(material), size_(size), sintering_(checkedLaw(material), sinteringTolerance) {}
 
-void TreeSpheres::start(TreeHead& tree) {
-  const double radius = 0.5 * primariesOf(&tree)->diameter;
-  *spheresOf(&tree) = {{}, radius, volumeOfRadius(radius), 0, 0};
+void TreeSpheres::start(TreeHead& tree) const {
+  const TreePrimary& primary = *primariesOf(&tree);
+  *spheresOf(&tree) = {{}, 0.5 * primary.diameter, material_.volume(primary.units), 0, 0};
 }
 
 void TreeSpheres::load(const TreeHead& tree, SphereAggregate& to) {

@@ -27,7 +27,7 @@ class TreeSpheres {
   TreeSpheres(const TreeMaterial& material, CollisionSize size, double sinteringTolerance);
 
   // A tree of one primary.
-  static void start(TreeHead& tree);
+  void start(TreeHead& tree) const;
   // The second tree comes on a straight line; the first has room for its primaries.
   void join(TreeHead& tree, const TreeHead& second, RandomStream& random);
   // Primaries have other units than their spheres have volume: what has come or gone does so at the free surface of

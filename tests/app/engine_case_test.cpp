@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 const std::string engineSection =
-    "engine: {bore: 0.1 m, stroke: 0.1 m, rod: 0.2 m, compression_ratio: 12, speed: 1200 1/min, start: -90 deg, end: "
+    "engine: {bore: 0.1 m, stroke: 0.1 m, rod: 0.2 m, compression_ratio: 12, speed: 1200 rpm, start: -90 deg, end: "
     "90 deg}\n";
 const std::string engineStart = "problem: engine\nmechanism: hydrogen_h2o2_10.yaml\n" + engineSection;
 const std::string engineCharge1 =

@@ -16,7 +16,7 @@ np = running.package("numpy")
 
 DECK = """problem: engine
 mechanism: hydrogen_h2o2_10.yaml
-engine: {bore: 80 mm, stroke: 90 mm, rod: 150 mm, compression_ratio: 14, speed: 1500 1/min, start: -120 deg, end: 120 deg}
+engine: {bore: 80 mm, stroke: 90 mm, rod: 150 mm, compression_ratio: 14, speed: 1500 rpm, start: -120 deg, end: 120 deg}
 charge: {temperature: 520 K, pressure: 1 bar, fuel: "H2: 1", oxidizer: "O2: 1, N2: 3.76", equivalence_ratio: 0.2, temperature_deviation: 10 K, exhaust: 0.1}
 cycles: {residual: 0.05, most: 8, angle_tolerance: 6 deg, temperature_tolerance: 10 K}
 mixing: {time: [10 ms]}

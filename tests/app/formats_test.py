@@ -143,6 +143,10 @@ def main(executable: str, *mpiexec: str) -> int:
             "particles.statistics={start: 10 us, block: 2 us}",
             "particles.regions.all={from: [0 mm, 0 mm], to: [14 mm, 8 mm]}"))
         runs["molecules"] = (CASES / "pah/pyrene_growth/deck.yaml", *running.settings("repeats=20", "gas.end=5 us", "output.spectra=[5 us]"))
+        runs["engine"] = (CASES / "engine/hcci_natural_gas/deck.yaml", *running.settings(
+            "sample.particles=4", "sample.repeats=2", "step.angle=2 deg", "output.every=8 deg", "cycles={residual: 0.1, most: 2}"))
+        runs["compression"] = (CASES / "reactor/rapid_compression/deck.yaml", *running.settings(
+            "volume={law: slider_crank, bore: 80 mm, stroke: 90 mm, rod: 150 mm, compression_ratio: 10, speed: 1000 rpm}"))
         runs["aggregates"] = (CASES / "aggregates/ballistic/deck.yaml", *running.settings("build.doublings=2", "build.aggregates=4", "repeats=2"))
         for text, run in ((COUNTERFLOW, "counterflow"), (SOOT, "soot"), (SOOT_TREES, "flame_trees"), (POPULATION, "population")):
             (folder / f"{run}.yaml").write_text(text, encoding="utf-8")

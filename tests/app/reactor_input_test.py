@@ -160,7 +160,7 @@ SOOT_MISTAKES = [
     ("a model of silica", TREES, "description: trees\n  number: 100", "description: hmom", ("particles.description: hmom is a model of soot",)),
     ("a method of silica", TREES, "description: trees", "description: ensemble\n  method: dsmc", ("particles.method: 'particles.material: silica' does not have this",)),
     ("a kernel of spheres", SOOT, "description: two_equation_dimer", "description: ensemble\n  kernel: continuum",
-     ("particles.kernel: 'particles.description: ensemble' does not have this; leave it out, or choose: trees, none; or 'particles.material': silica, table",)),
+     ("particles.kernel: 'particles.description: ensemble' does not have this; leave it out, or choose: trees, molecules, none; or 'particles.material': silica, table",)),
     ("steady ensemble", SOOT, *ENSEMBLE,
      ("particles: the steady state of an ensemble is a mean over time",)),
     ("key of flames", SOOT, "description: two_equation_dimer", "description: ensemble\n  coupling: two_way", ("particles.coupling",)),

@@ -84,7 +84,7 @@ def main(executable, ranks, kills, what, *mpiexec):
                 in_checkpoint += any(file.suffix == ".part" for file in out.glob("checkpoint/*"))
                 part = out / "results.h5.part"
                 try:
-                    damaged += part.exists() and not restart_test.datasets(part)
+                    damaged += part.exists() and not running.datasets(part)
                 except (OSError, RuntimeError):
                     damaged += 1
             else:

@@ -43,14 +43,14 @@ def check_wall_limit(program, folder, deck):
         record = record_of(out)
         assert record["status"] == "stopped" and record["steps"] > before, record
         before = record["steps"]
-        kept = restart_test.datasets(out / "results.h5.part")
+        kept = running.datasets(out / "results.h5.part")
         assert kept["history/step"][-1] == before and len(set(kept["history/step"])) == len(kept["history/step"]) == before, "a row a step"
     # What has stopped ends as what was left alone.
     end = running.settings(f"time.end={record['simulated_time_s'] + 20e-6} s")
     restart_test.run(program, deck, *LONG, *end, "--out", out, "--restart")
     alone = folder / "alone"
     restart_test.run(program, deck, *LONG, *end, "--out", alone)
-    found, expected = restart_test.datasets(out / "results.h5"), restart_test.datasets(alone / "results.h5")
+    found, expected = running.datasets(out / "results.h5"), running.datasets(alone / "results.h5")
     last = max(name for name in expected if name.startswith("steps/")).rsplit("/", 1)[0]
     different = [name for name in expected if name.startswith(last) and found[name].tobytes() != expected[name].tobytes()]
     assert not different, different
@@ -110,7 +110,7 @@ def check_boundaries(program, folder, deck):
                     r"[0-9]+ from t = .* s, tried with dt = [^,]* s; the fields until then are in ", result.err), result.err
     steps = record_of(out)["steps"]
     assert steps > 0 and restart_test.checkpoints(out) == [f"step_{steps:06}.h5"], result.err
-    assert restart_test.datasets(out / "results.h5.part")["history/step"][-1] == steps
+    assert running.datasets(out / "results.h5.part")["history/step"][-1] == steps
     deck.write_text(text, encoding="utf-8")
 
 

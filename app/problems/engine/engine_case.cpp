@@ -40,7 +40,7 @@ void readGeometry(const Deck& deck, EngineCase& made) {
                 deck.number("engine.compression_ratio")};
   if (!(2 * made.crank.rod > made.crank.stroke))
     throw deck.error("engine.rod", "the rod has to be longer than half of the stroke, the radius of the crank");
-  made.speed = deck.quantity("engine.speed");
+  made.speed = deck.quantity("engine.speed") / (2 * std::numbers::pi);
   made.start = degrees(deck, "engine.start");
   made.end = degrees(deck, "engine.end");
   if (!(made.start >= -180 && made.start < made.end && made.end <= 180))

@@ -32,7 +32,7 @@ class PreparedEngine : public PreparedRun {
   }
 
   [[nodiscard]] std::string summary() const override {
-    return fmt::format("{} particles, {} species, {} reactions, {:g} to {:g} deg at {:g} 1/min, {} repeats",
+    return fmt::format("{} particles, {} species, {} reactions, {:g} to {:g} deg at {:g} rpm, {} repeats",
                        case_.particles, case_.mechanism->numSpecies(), case_.mechanism->numReactions(), case_.start,
                        case_.end, 60 * case_.speed, case_.repeats);
   }

@@ -4,15 +4,13 @@
 namespace lampblack::app {
 namespace {
 
-const units::Dimension rotation = units::frequency;
-
 void addEngine(DeckSchema& schema) {
   schema.section("engine", Presence::required, "The engine, and the part of a cycle in which its valves are closed.")
       .add(quantityKey("engine.bore", units::length, "Bore of the cylinder.").above(0))
       .add(quantityKey("engine.stroke", units::length, "Stroke of the piston.").above(0))
       .add(quantityKey("engine.rod", units::length, "Length of the connecting rod.").above(0))
       .add(numberKey("engine.compression_ratio", "Largest over smallest volume.").above(1))
-      .add(quantityKey("engine.speed", rotation, "Turns of the crank per time, '1000 1/min'.").above(0))
+      .add(quantityKey("engine.speed", units::angularVelocity, "Speed of the crank, '1000 rpm'.").above(0))
       .add(quantityKey("engine.start", units::angle,
                        "Crank angle from the upper dead centre at which the inlet closes, '-142 deg'."))
       .add(quantityKey("engine.end", units::angle, "Crank angle at which the exhaust opens."));
@@ -20,8 +18,10 @@ void addEngine(DeckSchema& schema) {
 
 void addCharge(DeckSchema& schema) {
   schema.section("charge", Presence::required, "The gas as the inlet closes.")
-      .add(quantityKey("charge.temperature", units::temperature, "Its temperature, of fresh and burnt gas.").above(0))
-      .add(quantityKey("charge.pressure", units::pressure, "Its pressure.").above(0));
+      .add(
+          quantityKey("charge.temperature", units::temperature, "Temperature of the charge, fresh and burnt gas alike.")
+              .above(0))
+      .add(quantityKey("charge.pressure", units::pressure, "Pressure of the charge as the inlet closes.").above(0));
   addMixtureKeys(schema, "charge");
   schema
       .add(quantityKey("charge.temperature_deviation", units::temperature,
@@ -46,15 +46,20 @@ void addCharge(DeckSchema& schema) {
                      "Part by mass that stays from the cycle before, expanded to the pressure of the charge.")
                .atLeast(0)
                .below(1))
-      .add(integerKey("cycles.most", "Most cycles.").byDefault("20").atLeast(1).atMost(1000))
+      .add(integerKey("cycles.most", "Number of cycles after which the run ends, steady or not.")
+               .byDefault("20")
+               .atLeast(1)
+               .atMost(1000))
       .add(quantityKey("cycles.angle_tolerance", units::angle,
-                       "Cycles end where half of the heat is free at the same angle but for this,")
+                       "Largest difference of the angle at which half of the heat is free, from cycle to cycle, with "
+                       "which cycles end.")
                .byDefault("0.1 deg")
                .above(0))
-      .add(quantityKey("cycles.temperature_tolerance", units::temperature,
-                       "and the temperature at the start is the same but for this.")
-               .byDefault("0.5 K")
-               .above(0));
+      .add(
+          quantityKey("cycles.temperature_tolerance", units::temperature,
+                      "Largest difference of the temperature at the start, from cycle to cycle, with which cycles end.")
+              .byDefault("0.5 K")
+              .above(0));
 }
 
 void addProcesses(DeckSchema& schema) {
@@ -138,7 +143,10 @@ void addNumerics(DeckSchema& schema) {
                       "Start of the random numbers: another seed gives another sample, the same seed the same result.")
                .byDefault("1")
                .atLeast(0));
-  schema.add(quantityKey("step.angle", units::angle, "Longest step.").byDefault("0.5 deg").above(0))
+  schema
+      .add(quantityKey("step.angle", units::angle, "Longest step, as an angle of the crank.")
+               .byDefault("0.5 deg")
+               .above(0))
       .add(numberKey("step.pressure_change", "A step that changes the pressure by a larger part is halved.")
                .byDefault("0.1")
                .above(0))

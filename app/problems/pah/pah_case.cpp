@@ -126,8 +126,7 @@ void readRowsAndSpectra(const Deck& deck, PahCase& pah) {
 
 DeckSchema pahSchema() {
   DeckSchema schema;
-  std::vector<std::string> processes;
-  for (const PahProcessRow& row : pahProcesses) processes.emplace_back(row.name);
+  const std::vector<std::string> processes = pahProcessNames();
   schema.add(choiceKey("problem", {"pah"}, "What is solved."))
       .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
       .add(stringKey("mechanism",
@@ -204,7 +203,8 @@ DeckSchema pahSchema() {
       .add(integerKey("output.molecules", "Number of molecules whose rings are written at the end, for pictures.")
                .byDefault("12")
                .atLeast(0)
-               .atMost(10000))
+               .atMost(10000)
+               .onlyWith("description", {"lattice"}))
       .add(booleanKey("output.closure",
                       "Write closure.csv, the sites of all molecules at all rows and what is beside them, for "
                       "'description: sites'.")
@@ -244,9 +244,8 @@ PahCase readPahCase(const Deck& deck) {
     });
   } else {
     pah.writesClosure = deck.boolean("output.closure");
+    pah.drawn = std::min(deck.integer<std::size_t>("output.molecules"), static_cast<std::size_t>(pah.repeats));
   }
-  pah.drawn =
-      pah.closure ? 0 : std::min(deck.integer<std::size_t>("output.molecules"), static_cast<std::size_t>(pah.repeats));
   pah.checkpointInterval = deck.quantity("checkpoint.wall_time");
   pah.checkpointAtEnd = deck.boolean("checkpoint.at_end");
   return pah;
