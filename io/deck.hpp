@@ -83,6 +83,9 @@ class Deck {
 
   // Whether the deck has this key or section; a key with a default is always there.
   [[nodiscard]] bool has(std::string_view key) const;
+  // The same of a key that is read if so: true of a key nobody declared, whose reading then says that this is a
+  // mistake.
+  [[nodiscard]] bool isThere(std::string_view key) const;
   // Whether the deck itself says it, rather than a default.
   [[nodiscard]] bool isGiven(std::string_view key) const;
   // Names in a map, in the order of the file; empty where it is absent.
@@ -122,8 +125,6 @@ class Deck {
                                               ? static_cast<std::int64_t>(std::numeric_limits<T>::max())
                                               : std::numeric_limits<std::int64_t>::max();
   [[nodiscard]] std::int64_t integerWithin(std::string_view key, std::int64_t low, std::int64_t high) const;
-  // Whether an optional key has a value; a key nobody declared is a mistake.
-  [[nodiscard]] bool isThere(std::string_view key) const;
   Deck(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
        const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose);
   [[nodiscard]] const DeckValue* find(std::string_view key) const;

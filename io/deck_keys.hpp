@@ -211,7 +211,7 @@ class DeckKeys {
   void read(const Deck& deck, Options& options, const std::string& at) const {
     for (const auto& [name, read] : reads_) {
       const std::string key = joinedPath(at, name);
-      if (read && deck.has(key)) read(deck, key, options);
+      if (read && deck.isThere(key)) read(deck, key, options);
     }
   }
   [[nodiscard]] Options read(const Deck& deck, const std::string& at) const {

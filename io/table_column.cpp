@@ -33,8 +33,8 @@ std::pair<std::string, std::string> nameAndUnit(const std::string& header) {
     return {header.substr(0, end == std::string::npos ? 0 : end + 1), std::move(unit)};
   }
   // "t / ms"
-  const std::size_t slash = header.rfind('/');
-  if (!isSpecies && slash != std::string::npos && slash > 0) {
+  for (std::size_t slash = header.find('/', 1); !isSpecies && slash != std::string::npos;
+       slash = header.find('/', slash + 1)) {
     const std::size_t begin = header.find_first_not_of(' ', slash + 1), end = header.find_last_not_of(' ', slash - 1);
     if (begin != std::string::npos && end != std::string::npos && isUnit(header.substr(begin)))
       return {header.substr(0, end + 1), header.substr(begin)};

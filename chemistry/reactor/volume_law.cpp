@@ -101,7 +101,8 @@ double VolumeLaw::smallestAt(double end) const {
   times.push_back(end);
   std::size_t best = 0;
   for (std::size_t i = 1; i < times.size(); ++i)
-    if (ratio(times[i]) < ratio(times[best])) best = i;
+    if (ratio(times[i]) < ratio(times[best]) * (1 - 1e-4)) best = i;  // of equal ones the first
+  while (best + 1 < times.size() && ratio(times[best + 1]) < ratio(times[best])) ++best;
   if (best == 0 || best + 1 == times.size() || !points_.empty()) return times[best];
   double low = times[best - 1], high = times[best + 1];  // the slope changes its sign between
   for (int i = 0; i < 200 && high - low > 1e-15 * end; ++i) {

@@ -163,9 +163,9 @@ int CarriedSweeps::advance(State& state, const Problem& problem) {
   int sweeps = 0;
   while (sweeps < mostSweeps) {
     moved_ = 0.0;
-    inEachCell(m, [&](int i) {
-      solveCell(state, problem, order_[static_cast<std::size_t>(sweeps % 2 == 0 ? i : m.owned - 1 - i)]);
-    });
+    inEachCell(
+        m, [&](int c) { solveCell(state, problem, c); },
+        [&](int i) { return order_[static_cast<std::size_t>(sweeps % 2 == 0 ? i : m.owned - 1 - i)]; });
     MPI_Allreduce(MPI_IN_PLACE, &moved_, 1, MPI_DOUBLE, MPI_SUM, m.comm);
     context_.halo.update(x_, static_cast<int>(n_));
     if (sweeps++ == 0) first = moved_;

@@ -30,7 +30,7 @@ class CarriedSweeps {
     std::span<const double> rates;    // what is made in the state, per m^3 and s
     const std::vector<std::unique_ptr<Operator::CarriedInCells>>& sources;
   };
-  // Collective. The state's amounts become the new ones; halos of what is carried alone are filled. How many sweeps.
+  // Collective. The state's amounts become the new ones; its halo is not filled. How many sweeps.
   int advance(State& state, const Problem& problem);
 
  private:

@@ -67,7 +67,7 @@ class GasUpdate {
   // kg/s and, of the temperature, over its unit: what is left of the equations of a cell; `right`: n + 1 numbers.
   void findLeft(const State& state, const FlowResidual& residual, std::size_t cell, double* right);
   // Collective. Whether that is no more than round-off in all cells: of a gas of one temperature that mixes with no
-  // other nothing has to change. `through` (kg/s, owned cells): what flows through a cell.
+  // other nothing has to change. `through` (kg/s, owned cells): the mass of a cell over its pseudo-time.
   bool isAtRest(const State& state, const FlowResidual& residual, std::span<const double> through);
   // and the change, of which a cell takes what it may.
   Result take(State& state, std::span<const double> change);

@@ -28,18 +28,6 @@ output: {every: 4 deg, particles_at: [-60 deg, 0 deg, 120 deg], species: [H2, OH
 """
 
 
-def datasets(path: pathlib.Path) -> dict:
-    found = {}
-    with h5py.File(path) as file:
-        file.visititems(lambda name, item: found.__setitem__(name, item[()]) if isinstance(item, h5py.Dataset) else None)
-    return found
-
-
-def run(program, deck, out, *more):
-    result = program("run", deck, "--out", out, *running.settings(*more))
-    assert result.code == 0, f"{program.ranks} ranks: {result}"
-
-
 def main(executable: str, *mpiexec: str) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -49,11 +37,11 @@ def main(executable: str, *mpiexec: str) -> None:
             runs = {}
             for ranks in (1, 2):
                 out = folder / f"{len(settings)}_{ranks}"
-                run(running.Program(executable, list(mpiexec), ranks), deck, out, *settings)
-                runs[ranks] = datasets(out / "results.h5")
+                running.run_deck(running.Program(executable, list(mpiexec), ranks), deck, out, *running.settings(*settings))
+                runs[ranks] = running.datasets(out / "results.h5")
             different = [name for name in runs[1] if runs[1][name].tobytes() != runs[2][name].tobytes()]
             assert not different, f"2 ranks: other numbers than on one in {different}"
-        data = datasets(folder / "0_1/results.h5")
+        data = running.datasets(folder / "0_1/results.h5")
         h = {name.removeprefix("history/"): values for name, values in data.items() if name.startswith("history/")}
         results = json.loads((folder / "0_1/run.json").read_text(encoding="utf-8"))["results"]
         assert results["energy_error"] < 1e-12 and results["element_error"] < 1e-12, results
@@ -67,9 +55,9 @@ def main(executable: str, *mpiexec: str) -> None:
         assert np.isclose(results["chemical_heat"], h["chemical_heat"][-1]) and h["X_H2"][-1] < 0.2 * h["X_H2"].max(), h["X_H2"][-1] / h["X_H2"].max()
         assert len(data["cycles/ca50"]) > 1 and data["cycles/start_temperature"][1] > data["cycles/start_temperature"][0] + 5
         assert results["cycles_converged"] and np.allclose(np.unique(data["particles/angle"]), [-60, 0, 120])
-        several = datasets(folder / "2_1/results.h5")
+        several = running.datasets(folder / "2_1/results.h5")
         assert len(several["repeats/ca50"]) == 2 and several["repeats/ca50"][0] != several["repeats/ca50"][1]
-        assert np.isclose(several["history/pressure"][30], np.mean(several["history/pressure"][30])) and np.any(several["history/pressure_ci95"] > 0)
+        assert several["history/pressure"].max() <= several["repeats/largest_pressure"].mean() * (1 + 1e-9) and np.any(several["history/pressure_ci95"] > 0)
         drawn = running.script(running.SOURCE / "scripts/plot", folder / "0_1")
         assert drawn.code == 0, drawn
         for picture in ("cycle", "emissions", "scatter"):

@@ -163,6 +163,8 @@ void readNumerics(const Deck& deck, EngineCase& made) {
     return crank.volume((start + 360 * speed * time) * degree);
   };
   made.every = degrees(deck, "output.every");
+  if (degrees(deck, "step.angle") > made.every * (1 + 1e-12))
+    throw deck.error("step.angle", "steps end at each row; give an 'output.every' as long as this or longer");
   if (!((made.end - made.start) / made.every < 1e6)) throw deck.error("output.every", "these are too many rows");
   for (const double angle : deck.quantities("output.particles_at")) {
     made.particlesAt.push_back(angle / degree);

@@ -255,7 +255,7 @@ EngineRepeat runEngine(MPI_Comm comm, const EngineCase& made, std::uint64_t repe
     const bool isSame = std::abs(said.startTemperature() - temperatureBefore) < made.temperatureTolerance &&
                         (std::abs(said.halfBurnt() - halfBefore) < made.angleTolerance ||
                          (std::isnan(halfBefore) && std::isnan(said.halfBurnt())));
-    if (isSame && cycle > 1) break;
+    if (isSame && cycle > 0) break;
     done.isConverged = cycle + 1 < made.mostCycles;
     halfBefore = said.halfBurnt();
     temperatureBefore = said.startTemperature();

@@ -39,7 +39,7 @@ VolumeLaw formulaLaw(const Deck& deck, double end) {
   return deck.at("volume.formula", [&] {
     const Formula formula(deck.string("volume.formula"), {"t"});
     const auto volume = [formula](double t) { return formula(std::array{t}); };
-    for (int i = 0; i <= 1000; ++i)
+    for (int i = -1; i <= 1001; ++i)  // a little beyond, for differences
       if (const double t = end * i / 1000; !(volume(t) > 0))
         throw InputError(
             fmt::format("the volume has to be above zero until time.end; it is {:g} at t = {:g} s", volume(t), t));

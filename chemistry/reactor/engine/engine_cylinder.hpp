@@ -42,7 +42,7 @@ struct EngineOptions {
 
   double step = 0;                  // s
   double pressureTolerance = 0.1;   // a step that changes the pressure by a larger part is halved
-  double temperatureTolerance = 0;  // K, any temperature; 0: none
+  double temperatureTolerance = 0;  // K, of a particle by reactions; 0: none
   int mostHalvings = 6;
   std::uint64_t seed = 1, repeat = 0;
 };
@@ -87,9 +87,8 @@ class EngineCylinder {
   void step(double size, RandomStream& random);
   double others(double from, double size, bool isFirst, RandomStream& random);
   void compressTo(double volume) { ledger_.work += compression_.moveTo(volume, gas_); }
-  [[nodiscard]] bool isTooLarge(const EngineGas& before) const;
+  [[nodiscard]] bool isTooLarge(double pressureBefore) const;
 
-  MPI_Comm comm_;
   const Mechanism& mechanism_;
   const Thermo& thermo_;
   EngineOptions options_;
@@ -101,6 +100,7 @@ class EngineCylinder {
   EngineGas gas_;
   EngineLedger ledger_;
   double time_ = 0, growthRate_ = 0, size_ = 0, defect_ = 0;
+  double hotter_ = 0;  // K, the largest change of a temperature by reactions in the step
   double startPressure_ = 0, startTemperature_ = 0, startVolume_ = 0, startEnergy_ = 0;
   std::vector<double> startElements_;
   std::uint64_t cycle_ = 0, attempts_ = 0;

@@ -95,7 +95,7 @@ double EngineCompression::isentropic(double entropy, double guess, std::span<con
     T = next;
     if (isThere) break;
   }
-  if (T < Thermo::minTemperature * 1.0001 || T > Thermo::maxTemperature * 0.9999)
+  if (!(T >= Thermo::minTemperature * 1.0001 && T <= Thermo::maxTemperature * 0.9999))
     throw NumericsError(
         fmt::format("the gas of the cylinder comes to {:.4g} K on its isentrope, outside of the range of its "
                     "thermodynamics, {:g} to {:g} K",
@@ -104,6 +104,10 @@ double EngineCompression::isentropic(double entropy, double guess, std::span<con
 }
 
 double EngineCompression::moveTo(double volume, EngineGas& gas) {
+  if (!(volume > 0))
+    throw NumericsError(
+        "the reactions of a step need more room than the cylinder has; give a smaller step.angle or more "
+        "step.halvings");
   const std::size_t n = gas.count();
   const double before = energyOf(thermo_, gas);
   entropy_.resize(n);
