@@ -28,8 +28,9 @@ Molecule::Molecule(std::span<const LatticeCell> rings, std::span<const LatticeCe
   const std::int32_t side =
       std::max(leastSide, static_cast<std::int32_t>(std::bit_ceil(static_cast<std::uint32_t>(extent))));
   setSide(side);
-  originQ_ = (low.q + high.q) / 2 - side / 2;
-  originR_ = (low.r + high.r) / 2 - side / 2;
+  const auto origin = [side](int least, int most) { return least - (side - (most - least + 1)) / 2; };
+  originQ_ = origin(low.q, high.q);
+  originR_ = origin(low.r, high.r);
   lattice_.assign(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), 0);
   for (const LatticeCell& ring : rings) {
     const std::int32_t cell = (ring.r - originR_) * side_ + ring.q - originQ_;
