@@ -162,6 +162,9 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
   o.growthFactor = deck.number(section + ".growth_factor");
   o.growthFactorFrom = deck.integer<std::size_t>(section + ".growth_factor_from");
   o.spheres = deck.choice(section + ".shape") == "spheres";
+  for (const char* key : {"particles.sintering", "particles.fractal_dimension"})
+    if (o.spheres && deck.isGiven(key))
+      throw deck.error(key, "has no meaning with 'shape: spheres', whose particles have one primary; leave it out");
   o.rates = readPahRates(deck, section + ".rates");
   o.active = readPahProcesses(deck, section + ".processes");
   for (std::size_t p = 0; p < pahProcessCount; ++p) {

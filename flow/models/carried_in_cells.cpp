@@ -16,7 +16,6 @@ class ParticlesInCells : public Operator::CarriedInCells {
   struct Cells {
     std::size_t first, scalars, all;  // the model's in what is carried
     std::function<double(int)> viscosity;
-    std::span<const CellMixing> mixing;  // empty: all is mixed
   };
   ParticlesInCells(const FlowContext& context, const State& state, CarriedModel& model, Cells cells)
       : context_(context),
@@ -40,15 +39,14 @@ class ParticlesInCells : public Operator::CarriedInCells {
       viscosity_ = cells_.viscosity(cell);
       gas_ = gasOfCell(context_, state_, cell, *viscosity_, model_.exchanged(), concentrations_);
     }
-    const double share = cells_.mixing.empty() ? 1.0 : cells_.mixing[static_cast<std::size_t>(cell)].reactingShare;
     model_.sources(*gas_, own, made_, exchanged_);
-    for (std::size_t s = 0; s < cells_.scalars; ++s) rates[cells_.first + s] += share * made_[s];
+    for (std::size_t s = 0; s < cells_.scalars; ++s) rates[cells_.first + s] += made_[s];
     if (slopes.empty()) return;
     std::ranges::fill(jacobian_, 0.0);
     model_.jacobian(*gas_, own, {jacobian_, columns_});
     for (std::size_t by = 0; by < cells_.scalars; ++by)
       for (std::size_t s = 0; s < cells_.scalars; ++s)
-        slopes[(cells_.first + by) * cells_.all + cells_.first + s] += share * jacobian_[s * columns_ + by];
+        slopes[(cells_.first + by) * cells_.all + cells_.first + s] += jacobian_[s * columns_ + by];
   }
 
  private:
@@ -66,11 +64,11 @@ class ParticlesInCells : public Operator::CarriedInCells {
 }  // namespace
 
 std::unique_ptr<Operator::CarriedInCells> CarriedOperator::carriedInCells(const State& state) {
-  const std::span<const CellMixing> mixing = mixing_ ? mixing_->of(state) : std::span<const CellMixing>();
+  if (mixing_) return nullptr;  // what mixing lets go of the sources is that of all cells at once
   return std::make_unique<ParticlesInCells>(
-      context_, state, model_,
-      ParticlesInCells::Cells{first_, scalars_, state.scalars.size(),
-                              [this, &state](int c) { return viscosityOf(state, c); }, mixing});
+      context_, state, model_, ParticlesInCells::Cells{first_, scalars_, state.scalars.size(), [this, &state](int c) {
+                                                         return viscosityOf(state, c);
+                                                       }});
 }
 
 }  // namespace lampblack::flow

@@ -33,7 +33,7 @@ CarriedUpdate::CarriedUpdate(const FlowContext& context, const State& state, con
       scales_(n_) {
   std::ranges::copy_if(operators, std::back_inserter(operators_), &Operator::actsOnCarried);
   isByCell_ = std::ranges::all_of(operators_, [&](Operator* op) { return op->carriedInCells(state) != nullptr; });
-  slopes_.resize(static_cast<std::size_t>(context.mesh.owned) * n_ * n_);
+  if (!isByCell_) slopes_.resize(static_cast<std::size_t>(context.mesh.owned) * n_ * n_);
   right_.resize(static_cast<std::size_t>(context.mesh.owned) * n_);
   change_.resize(static_cast<std::size_t>(context.mesh.cells) * n_);
   start_.resize(right_.size());
@@ -63,7 +63,8 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
   std::ranges::fill(slopes_, 0.0);
   std::ranges::fill(flow_, 0.0);
   for (Operator* op : operators_) {
-    if (!isByCell_) op->addSlopes(state, {{}, slopes_});
+    if (isByCell_) continue;
+    op->addSlopes(state, {{}, slopes_});
     op->addCarriedFlow(flow_);
   }
   const FlowResidual::Rates& rates = residual.rates();
@@ -75,7 +76,7 @@ void CarriedUpdate::assemble(const State& state, const FlowResidual& residual, s
       const double perMass = state.carried[c * n_ + s] / state.density[c];
       const bool moves = state.scalars[s].isTransported;
       right_[c * n_ + s] = moves ? (rates.carried[c * n_ + s] - perMass * rates.mass[c]) / scales_[s] : 0.0;
-      for (std::size_t by = 0; by < n_ && moves; ++by)
+      for (std::size_t by = 0; by < n_ && moves && !isByCell_; ++by)
         block[by * n_ + s] -=
             m.volume[c] * state.density[c] * slopes_[(c * n_ + by) * n_ + s] * scales_[by] / scales_[s];
     }

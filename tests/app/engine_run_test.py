@@ -33,7 +33,7 @@ def main(executable: str, *mpiexec: str) -> None:
         folder = pathlib.Path(name)
         deck = folder / "deck.yaml"
         deck.write_text(DECK, encoding="utf-8")
-        for settings in ((), ("sample.repeats=2", "cycles.most=1")):
+        for settings in ((), ("sample.repeats=2", "cycles.most=2")):
             runs = {}
             for ranks in (1, 2):
                 out = folder / f"{len(settings)}_{ranks}"

@@ -39,10 +39,8 @@ TEST(MoleculesDeck, SaysAllOfTheOptions) {
     rates: {ways_armchair: 1}
   oxidation: false
   density: 1.6 g/cm^3
-  fractal_dimension: 1.7
   kernel: free_molecular
   van_der_waals: 1.5
-  sintering: {mechanism: constant, prefactor: 1e-3}
   number: 99
   split_tolerance: 0.02
   expected_number: 1e19 1/m^3
@@ -67,10 +65,8 @@ TEST(MoleculesDeck, SaysAllOfTheOptions) {
     EXPECT_EQ(o.active[p], static_cast<PahProcess>(p) == PahProcess::G6R_AC) << pahProcesses[p].name;
   EXPECT_DOUBLE_EQ(o.atStart, 1e16);
   EXPECT_NEAR(o.density, 1600, 1e-9);
-  EXPECT_EQ(o.fractalDimension, 1.7);
   EXPECT_EQ(o.kernel.type, CollisionKernelType::freeMolecular);
   EXPECT_EQ(o.kernel.enhancement, 1.5);
-  EXPECT_EQ(o.sintering.mechanism, SinteringMechanism::constant);
   EXPECT_EQ(o.particles, 99U);
   EXPECT_EQ(o.splitTolerance, 0.02);
   const PopulationRequest request = readPopulation(deck, mechanism);
@@ -83,6 +79,14 @@ TEST(MoleculesDeck, SaysAllOfTheOptions) {
   EXPECT_EQ(population->size(), 99U);
   EXPECT_EQ(population->classedBy()[request.classes[0].by].name, "primaries");
   EXPECT_EQ(ownerOf({population->pack()[packedOwnerAt], population->pack()[packedOwnerAt + 1]}), 5U);
+}
+
+TEST(MoleculesDeck, PrimariesHaveALawOfSinteringAndAFractalDimension) {
+  const MoleculeOptions o = readMoleculeOptions(
+      moleculesDeck("  fractal_dimension: 1.7\n  sintering: {mechanism: constant, prefactor: 1e-3}\n"),
+      shippedMechanism(mechanismOfMolecules));
+  EXPECT_EQ(o.fractalDimension, 1.7);
+  EXPECT_EQ(o.sintering.mechanism, SinteringMechanism::constant);
 }
 
 TEST(MoleculesDeck, HasTheDefaultsOfThePage) {
@@ -106,6 +110,12 @@ TEST(MoleculesDeck, MistakesAreTold) {
   EXPECT_THAT(message("  molecules: {inception: as_in_gas}\n"), testing::HasSubstr("prescribed_gas"));
   EXPECT_THAT(message("  molecules: {molecule: coronene}\n"), testing::HasSubstr("the molecule it is taken for"));
   EXPECT_THAT(message("  oh_efficiency: 0.1\n"), testing::HasSubstr("leave it out"));
+  EXPECT_THAT(message("  surface: {bounded: true}\n"), testing::HasSubstr("has no meaning"));
+  EXPECT_THAT(message("  molecules: {processes: [G7R]}\n"), testing::HasSubstr("G6R_AC"));
+  for (const char* ofPrimaries :
+       {"  fractal_dimension: 1.7\n", "  sintering: {mechanism: constant, prefactor: 1e-3}\n"})
+    EXPECT_THAT(message(std::string("  molecules: {shape: spheres}\n") + ofPrimaries),
+                testing::HasSubstr("have one primary"));
   EXPECT_THAT(message("  molecules: {sticks: by_size, sticking_constants: [1, 0, 1]}\n"),
               testing::HasSubstr("B above zero"));
 }

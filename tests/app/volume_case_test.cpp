@@ -69,7 +69,7 @@ TEST(VolumeCase, AFileSaysItsUnits) {
   EXPECT_THAT(volumeMessage(file("0,500\n0,50\n")), testing::HasSubstr("the points have to rise"));
 }
 
-TEST(VolumeCase, MessagesSayWhatToDo) {
+TEST(VolumeCase, RefusalsNameTheKeyAndTheCause) {
   for (const auto& [volume, message] : std::vector<std::pair<std::string, std::string>>{
            {"", "'given_volume' needs the section 'volume'"},
            {"law: table", "expected either 'time' and 'volume' or 'file'"},

@@ -131,7 +131,7 @@ double meanTemperature(const EngineCylinder& run) {
 double endTemperature(const EngineOptions& options, const EngineGas& gas) {
   const Thermo thermo(hydrogen());
   EngineCylinder run(MPI_COMM_WORLD, hydrogen(), thermo, options);
-  run.start(gas, 0, 0);
+  run.start(gas, 0);
   run.advanceTo(endTime);
   EXPECT_LT(run.energyError(), 1e-12);
   EXPECT_LT(run.elementError(), 1e-12);
@@ -207,7 +207,7 @@ TEST(EngineCylinder, WithoutMixingParticlesShareThePressureAlone) {
   const EngineGas gas = full(engineGas({{700, charge}, {500, "N2: 1"}}));
   const Thermo thermo(hydrogen());
   EngineCylinder run(MPI_COMM_WORLD, hydrogen(), thermo, cylinder(endTime / 100));
-  run.start(gas, 0, 0);
+  run.start(gas, 0);
   run.advanceTo(endTime);
   const double before = thermo.entropyMass(500, constants::oneAtmosphere, gas.Y(1));
   EXPECT_NEAR(thermo.entropyMass(run.gas().temperature[1], run.gas().pressure, run.gas().Y(1)), before, 1e-6 * before);
@@ -239,7 +239,7 @@ TEST(EngineCylinder, BalancesWithInjectionOnAnyRanks) {
   std::vector<EngineGas> ends;
   for (MPI_Comm comm : {MPI_COMM_SELF, MPI_COMM_WORLD}) {
     EngineCylinder run(comm, hydrogen(), thermo, options);
-    run.start(gas, 0, 0);
+    run.start(gas, 0);
     run.advanceTo(0.5 * endTime);
     run.advanceTo(endTime);
     EXPECT_NEAR(run.ledger().injectedMass, 0.02e-3, 1e-14);
@@ -263,7 +263,7 @@ TEST(EngineCylinder, StepsThatChangeTooMuchAreHalved) {
   EngineOptions options = cylinder(endTime / 40);
   options.pressureTolerance = 0.05;
   EngineCylinder run(MPI_COMM_SELF, hydrogen(), thermo, options);
-  run.start(gas, 0, 0);
+  run.start(gas, 0);
   run.advanceTo(endTime);
   EXPECT_GT(run.ledger().rejected, 0);
   EXPECT_GT(run.ledger().steps, 45);

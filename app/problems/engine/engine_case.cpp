@@ -119,6 +119,7 @@ void readMixing(const Deck& deck, EngineCase& made) {
                         : model == "iem"  ? EngineMixingModel::iem
                         : model == "curl" ? EngineMixingModel::curl
                                           : EngineMixingModel::modifiedCurl;
+  if (made.options.mixing == EngineMixingModel::none) return;
   made.options.mixingConstant = deck.number("mixing.constant");
   made.options.mixingTime = readAngleTable(deck, made, "mixing.angles", "mixing.time");
 }

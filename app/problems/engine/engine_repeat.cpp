@@ -112,6 +112,7 @@ class CycleRows {
                             ringingIntensity(trace_),
                             static_cast<double>(ledger.steps),
                             static_cast<double>(ledger.rejected),
+                            static_cast<double>(ledger.tooLarge),
                             ledger.largestDefect,
                             cylinder.energyError(),
                             cylinder.elementError()};
@@ -192,6 +193,7 @@ std::vector<Quantity> engineSummaryQuantities(const EngineCase& made) {
       {"ringing", "W/m^2", "ringing intensity"},
       {"steps", "1", "steps of the splitting"},
       {"rejected_steps", "1", "steps that were halved"},
+      {"steps_too_large", "1", "steps that were as large as the section step forbids, halved as often as it says"},
       {"step_error", "1", "part of the volume by which reactions grew otherwise than foreseen, largest"},
       {"energy_error", "1", "what the balance of energy lacks over the heat in the gas"},
       {"element_error", "1", "what the balance of an element lacks over its amount"}};
@@ -229,7 +231,7 @@ EngineRepeat runEngine(MPI_Comm comm, const EngineCase& made, std::uint64_t repe
   for (std::size_t cycle = 0; cycle < made.mostCycles; ++cycle) {
     CycleRows said(made, thermo);
     done.particles.clear();
-    cylinder.start(engineCharge(made, repeat, left), 0, cycle);
+    cylinder.start(engineCharge(made, repeat, left), 0);
     for (const double angle : stops) {
       try {
         cylinder.advanceTo(made.timeOf(angle));

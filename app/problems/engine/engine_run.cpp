@@ -152,6 +152,11 @@ class PreparedEngine : public PreparedRun {
     recordEngine(json, case_, summaries, isConverged);
     json.endObject();
     record.resultsJson = json.text();
+    if (at("steps_too_large") > 0)
+      printWarnings(
+          {fmt::format("{:g} steps of the last cycle were larger than the section 'step' allows: raise "
+                       "step.halvings, or give a smaller step.angle",
+                       at("steps_too_large"))});
     if (!isConverged)
       printWarnings({fmt::format("after {} cycles the last two still differ by more than the section cycles says",
                                  case_.mostCycles)});

@@ -48,7 +48,7 @@ void addCharge(DeckSchema& schema) {
                .below(1))
       .add(integerKey("cycles.most", "Number of cycles after which the run ends, steady or not.")
                .byDefault("20")
-               .atLeast(1)
+               .atLeast(2)
                .atMost(1000))
       .add(quantityKey("cycles.angle_tolerance", units::angle,
                        "Largest difference of the angle at which half of the heat is free, from cycle to cycle, with "
@@ -68,14 +68,19 @@ void addProcesses(DeckSchema& schema) {
                      "none; iem: all with their mean; curl: pairs become their mean; modified_curl: pairs come a "
                      "uniformly drawn part of the way to it.")
                .byDefault("modified_curl"))
-      .add(numberKey("mixing.constant", "C of the decay of a variance, exp(-C t/tau).").byDefault("2").above(0))
+      .add(numberKey("mixing.constant", "C of the decay of a variance, exp(-C t/tau).")
+               .byDefault("2")
+               .above(0)
+               .onlyWith("mixing.model", {"iem", "curl", "modified_curl"}))
       .add(quantityKey("mixing.time", units::time, "Time scale tau of the turbulence: one, or one for each angle.")
                .list()
                .byDefault("[15 ms]")
-               .above(0))
+               .above(0)
+               .onlyWith("mixing.model", {"iem", "curl", "modified_curl"}))
       .add(quantityKey("mixing.angles", units::angle, "Crank angles of these times, linear in between.")
                .list()
-               .optional());
+               .optional()
+               .onlyWith("mixing.model", {"iem", "curl", "modified_curl"}));
   schema.section("walls", Presence::optional, "Loss of heat to the walls.")
       .add(choiceKey("walls.model", {"woschni", "hohenberg", "nusselt", "constant", "none"},
                      "Correlation of the heat transfer coefficient.")

@@ -41,6 +41,7 @@ void archived(StateArchive& archive, const std::string& name, std::vector<std::u
 }
 
 constexpr std::size_t formulaNumbers = 4;
+constexpr std::size_t formulaQuantities = 4;  // atoms and rings, before the sites
 
 std::vector<std::uint64_t> flat(const std::map<RowFormula, std::uint64_t>& formulas) {
   std::vector<std::uint64_t> numbers;
@@ -84,6 +85,11 @@ GrowthValues valuesOf(const MoleculeGrowth& growth) {
   for (const SiteGroup group : nearGroups) values.push_back(molecule.count(group));
   addEventsOf(growth, values);
   return values;
+}
+
+bool isCounted(std::size_t quantity) {
+  return quantity < formulaQuantities + countedSites ||
+         quantity >= formulaQuantities + siteTypes + std::size(nearGroups);
 }
 
 GrowthValues valuesOf(const SiteCounting& growth) {

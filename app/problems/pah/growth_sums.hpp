@@ -22,7 +22,10 @@ namespace lampblack::app {
 // Of site counting what is beside a site is not known: all sites are of types without R5 beside them.
 using GrowthValues = std::vector<std::uint64_t>;
 [[nodiscard]] GrowthValues valuesOf(const MoleculeGrowth& growth);
+// Of what is not counted there are zeros.
 [[nodiscard]] GrowthValues valuesOf(const SiteCounting& growth);
+// Whether site counting knows a quantity, by its place in growthQuantities().
+[[nodiscard]] bool isCounted(std::size_t quantity);
 
 // A formula at a row.
 struct RowFormula {

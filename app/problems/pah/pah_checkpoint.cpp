@@ -25,7 +25,9 @@ void saveOrLoad(StateArchive& archive, int rank, PahProgress& progress) {
 }  // namespace
 
 Fingerprint pahFingerprint(const PahCase& pah) {
-  ContentHash molecule, growth;
+  ContentHash molecule, growth, closure;
+  if (pah.closure)
+    for (const std::uint64_t number : pah.closure->numbers()) closure.add(fmt::format("{} ", number));
   molecule.add(cellsText(pah.rings) + "|" + cellsText(pah.fiveRings));
   for (const GrowthInterval& interval : pah.growth.intervals) {
     growth.add(fmt::format("{} ", interval.duration));
@@ -36,6 +38,7 @@ Fingerprint pahFingerprint(const PahCase& pah) {
   return {{"problem", "pah"},
           {"molecule", fmt::format("{} rings, {}", pah.rings.size() + pah.fiveRings.size(), molecule.text())},
           {"gas, rates or rows", growth.text()},
+          {"description, closure", pah.closure ? closure.text() : "lattice"},
           {"limit of rings", fmt::format("{}", pah.mostRings)},
           {"seed", fmt::format("{}", pah.seed)}};
 }

@@ -8,6 +8,7 @@
 namespace lampblack::app {
 namespace {
 
+constexpr double notCounted = std::numeric_limits<double>::quiet_NaN();
 constexpr double carbonWeight = 12.011, hydrogenWeight = 1.008;  // g/mol
 
 double leftBy(const PahCase& pah, const GrowthSums& sums, std::size_t row) {
@@ -29,7 +30,10 @@ PahTable pahHistory(const PahCase& pah, const GrowthSums& sums) {
     const std::uint64_t count = sums.count(row);
     const RepeatIntervals intervals(std::max<std::uint64_t>(count, 2));
     for (std::size_t q = 0; q < quantities.size(); ++q)
-      intervals.append(sums.mean(row, q), sums.standardError(row, q), table.rows);
+      if (pah.closure && !isCounted(q))
+        intervals.append(notCounted, notCounted, table.rows);
+      else
+        intervals.append(sums.mean(row, q), sums.standardError(row, q), table.rows);
   }
   return table;
 }

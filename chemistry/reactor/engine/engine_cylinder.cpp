@@ -23,13 +23,12 @@ EngineCylinder::EngineCylinder(MPI_Comm comm, const Mechanism& mechanism, const 
   if (options_.injection) injection_.emplace(mechanism, thermo, *options_.injection);
 }
 
-void EngineCylinder::start(EngineGas gas, double time, std::uint64_t cycle) {
+void EngineCylinder::start(EngineGas gas, double time) {
   gas_ = std::move(gas);
   ledger_ = {};
   time_ = time;
   size_ = options_.step;
   growthRate_ = 0;
-  cycle_ = cycle;
   attempts_ = 0;
   compression_.moveTo(options_.volume(time), gas_);
   const EngineTotals all = totalsOf(thermo_, gas_);
@@ -46,9 +45,10 @@ void EngineCylinder::advanceTo(double time) {
     // As many equal steps as it takes at the present size.
     const double parts = std::ceil((time - time_) / size_ * (1 - 1e-9)), size = (time - time_) / parts;
     const State before{gas_, ledger_, growthRate_};
-    RandomStream random(options_.seed, options_.repeat << 42U | cycle_ << 32U | attempts_++, enginePurpose);
+    RandomStream random(options_.seed, options_.repeat << 40U | attempts_++, enginePurpose);
     step(size, random);
-    if (isTooLarge(before.gas.pressure) && 0.5 * size >= smallest) {
+    const bool isLarge = isTooLarge(before.gas.pressure);
+    if (isLarge && 0.5 * size >= smallest) {
       gas_ = before.gas;
       ledger_ = before.ledger;
       growthRate_ = before.growthRate;
@@ -57,6 +57,7 @@ void EngineCylinder::advanceTo(double time) {
       continue;
     }
     ++ledger_.steps;
+    if (isLarge) ++ledger_.tooLarge;
     ledger_.largestDefect = std::max(ledger_.largestDefect, defect_);
     time_ = parts == 1 ? time : time_ + size;
     size_ = std::min(options_.step, 2 * size_);

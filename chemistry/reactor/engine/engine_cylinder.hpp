@@ -56,6 +56,7 @@ struct EngineLedger {
   double chemistrySteps = 0;
   double largestDefect = 0;  // of the volume, by which reactions grew otherwise than foreseen: the error of a step
   std::int64_t steps = 0, rejected = 0;
+  std::int64_t tooLarge = 0;  // steps that were taken as they could not be halved further
 };
 
 class EngineCylinder {
@@ -63,8 +64,9 @@ class EngineCylinder {
   // `mechanism` and `thermo` have to live as long.
   EngineCylinder(MPI_Comm comm, const Mechanism& mechanism, const Thermo& thermo, EngineOptions options);
 
-  // The gas has the volume of that time, to round-off, afterwards.
-  void start(EngineGas gas, double time, std::uint64_t cycle);
+  // The gas has the volume of that time, to round-off, afterwards. Random numbers begin anew: cycles differ by their
+  // gas alone, so that they may come to an end.
+  void start(EngineGas gas, double time);
   // Collective. NumericsError.
   void advanceTo(double time);
 
@@ -103,7 +105,7 @@ class EngineCylinder {
   double hotter_ = 0;  // K, the largest change of a temperature by reactions in the step
   double startPressure_ = 0, startTemperature_ = 0, startVolume_ = 0, startEnergy_ = 0;
   std::vector<double> startElements_;
-  std::uint64_t cycle_ = 0, attempts_ = 0;
+  std::uint64_t attempts_ = 0;
 };
 
 }  // namespace lampblack::chemistry

@@ -63,6 +63,8 @@ def _plot_scatter(group, pictures):
     for one in np.unique(angle):
         rows = angle == one
         axes.scatter(ratio[rows], temperature[rows], s=20 * mass[rows] / mass[rows].mean(), alpha=0.6, label=f"{one:g} deg")
+    middle, half = 0.5 * (ratio.max() + ratio.min()), 0.5 * np.ptp(ratio)
+    axes.set_xlim(middle - max(1.1 * half, 0.05), middle + max(1.1 * half, 0.05))  # alike particles are a line
     axes.set_xlabel("equivalence ratio")
     axes.set_ylabel("temperature, K")
     axes.legend(fontsize=7)
