@@ -88,7 +88,9 @@ class Checker {
         const bool isFormer =
             std::find(key.formerNames.begin(), key.formerNames.end(), node.name) != key.formerNames.end();
         if (key.path.ends_with("." + node.name) || key.path == node.name || isFormer) {
-          hint = fmt::format("; did you mean '{}'?", key.path);
+          hint = key.path == node.name
+                     ? fmt::format("; '{}' stands at the top of the deck, not in a section.", key.path)
+                     : fmt::format("; did you mean '{}'?", key.path);
           break;
         }
       }

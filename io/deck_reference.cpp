@@ -13,7 +13,7 @@ using Node = DeckSchema::Node;
 
 constexpr const char* introduction =
     "Every key a deck may have. `*` stands for a name you choose, `[]` for an item of a list. A quantity is a number "
-    "with a unit (`20 cm/s`); a bare number is in the unit shown.\n";
+    "with a unit (`20 cm/s`); a bare number is in the unit shown; angles and speeds of revolution need theirs.\n";
 
 std::string typeText(const DeckKey& key) {
   std::string one;

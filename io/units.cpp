@@ -321,7 +321,12 @@ double parseQuantity(std::string_view text, const Dimension& dimension) {
   const auto number = leadingNumber(text);
   if (!number) throw InputError(fmt::format("expected {}, found '{}'", expected(dimension), text));
   const std::string_view rest = trim(text.substr(number->second));
-  if (rest.empty()) return number->first;
+  if (rest.empty()) {
+    // Who writes a speed of 1500 or an angle of -142 means rpm and degrees.
+    if (dimension.angle != 0 && number->first != 0)
+      throw InputError(fmt::format("expected {}, found '{}' without a unit", expected(dimension), text));
+    return number->first;
+  }
   Unit unit;
   try {
     unit = parseUnit(rest);

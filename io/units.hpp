@@ -93,8 +93,9 @@ Unit parseUnit(std::string_view text);
 // Reads a number: decimal, finite, the whole text. InputError otherwise.
 double parseNumber(std::string_view text);
 
-// Reads "number unit" (a bare number is SI) and returns the value in SI. InputError where it is not a finite quantity
-// of the expected dimension: "expected a velocity (for instance '20 cm/s'), found '20 cm', a length".
+// Reads "number unit" (a bare number is SI; angles and speeds of revolution need a unit) and returns the value in SI.
+// InputError where it is not a finite quantity of the expected dimension: "expected a velocity (for instance '20
+// cm/s'), found '20 cm', a length".
 double parseQuantity(std::string_view text, const Dimension& expected);
 
 }  // namespace lampblack::io::units

@@ -31,6 +31,18 @@ std::optional<std::string_view> quotedName(std::string_view s) {
   return s.substr(1, end - 1);
 }
 
+// The species of a composition that is one name without an amount, 'CH4'.
+std::optional<std::size_t> onlySpecies(const Mechanism& mechanism, std::string_view text) {
+  const auto name = trimmed(text);
+  if (name.empty()) return std::nullopt;
+  const auto quoted = quotedName(name);
+  return mechanism.findSpecies(quoted && quoted->size() + 2 == name.size() ? *quoted : name);
+}
+
+bool isAir(std::string_view name) {
+  return name == "air" || name == "Air" || name == "AIR";
+}
+
 }  // namespace
 
 // A name that has ':' or '=', or begins or ends with a blank or comma, stands in quotes: "'a=b': 1".
@@ -46,7 +58,8 @@ std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view te
       throw InputError(fmt::format("{} '{}': the quote before '{}' is not closed", what, text, rest.substr(1)));
     const auto colon = rest.find_first_of(":=", quoted ? quoted->size() + 2 : 0);
     if (colon == std::string_view::npos)
-      throw InputError(fmt::format("{} '{}': expected ':' and an amount after '{}'", what, text, rest));
+      throw InputError(fmt::format("{} '{}': expected ':' and an amount after '{}'{}", what, text, rest,
+                                   isAir(rest) ? "; air is 'O2: 0.21, N2: 0.79'" : ""));
     if (quoted && !trimmed(rest.substr(quoted->size() + 2, colon - quoted->size() - 2)).empty())
       throw InputError(fmt::format("{} '{}': expected ':' after the name '{}'", what, text, *quoted));
     const auto name = quoted.value_or(trimmed(rest.substr(0, colon)));
@@ -67,6 +80,11 @@ std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view te
 }
 
 std::vector<double> parseComposition(const Mechanism& mechanism, std::string_view text) {
+  if (const auto alone = onlySpecies(mechanism, text)) {
+    std::vector<double> pure(mechanism.numSpecies(), 0.0);
+    pure[*alone] = 1;
+    return pure;
+  }
   auto X = parseAmounts(mechanism, text, "composition", 0.0);
   const double largest = *std::max_element(X.begin(), X.end());
   if (!(largest > 0))

@@ -88,8 +88,8 @@ class Mechanism {
 };
 
 // "C2H4: 1, N2: 3" (commas or blanks between the pairs) as mole fractions that sum to one; names as findSpecies takes
-// them. InputError for unknown names (with the nearest known one), negative or unreadable amounts, a name given twice,
-// and all amounts zero.
+// them; a name alone is that species alone. InputError for unknown names (with the nearest known one), negative or
+// unreadable amounts, a name given twice, and all amounts zero.
 std::vector<double> parseComposition(const Mechanism& mechanism, std::string_view text);
 
 // The same pairs as they stand, with `absent` for species that are not named; messages call the text `what`.

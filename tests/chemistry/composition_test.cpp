@@ -71,7 +71,14 @@ TEST(Composition, AmountsNearTheEndOfFloatingPoint) {
   EXPECT_DOUBLE_EQ(X[mechanism.speciesIndex("N2")], 1.6 / 3.6);
 }
 
+TEST(Composition, ANameAloneIsThatSpeciesAlone) {
+  const auto& mechanism = lampblack::test::hydrogen();
+  for (const char* text : {"O2", " o2 ", "'O2'"})
+    EXPECT_EQ(parseComposition(mechanism, text), parseComposition(mechanism, "O2: 1")) << text;
+}
+
 TEST(Composition, SaysWhatIsWrong) {
+  EXPECT_THAT(messageOf("air"), HasSubstr("air is 'O2: 0.21, N2: 0.79'"));
   EXPECT_THAT(messageOf("H2: 1, H2O3: 1"), HasSubstr("nearest known name is 'H2O"));
   EXPECT_THAT(messageOf("H2: -1, O2: 2"), HasSubstr("negative amount of 'H2'"));
   EXPECT_THAT(messageOf("H2: 0, O2: 0"), HasSubstr("all amounts are zero"));

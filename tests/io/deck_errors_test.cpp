@@ -31,6 +31,8 @@ TEST(DeckErrors, AMisspeltRequiredKeyIsMisspeltRatherThanMissing) {
 
 TEST(DeckErrors, AKeyThatIsRightElsewhereSaysWhere) {
   EXPECT_THAT(messageOf(test::sampleText + "cells: 3\n"), HasSubstr("did you mean 'mesh.z[].cells'?"));
+  EXPECT_THAT(messageOf(sampleWith("    type: inlet\n", "    type: inlet\n    mechanism: gas.yaml\n")),
+              HasSubstr("unknown key 'mechanism'; 'mechanism' stands at the top of the deck, not in a section."));
 }
 
 TEST(DeckErrors, AnUnknownKeyLikeNothingListsWhatIsKnown) {

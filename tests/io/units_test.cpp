@@ -40,10 +40,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Written{"0.026 W/m/K", units::conductivity, 0.026},
                     Written{"1.8e-5 Pa s", units::viscosity, 1.8e-5}, Written{"1.8e-5 Pa*s", units::viscosity, 1.8e-5},
                     Written{"12 kcal/mol", units::molarEnergy, 50208.0}, Written{"3 L/min", units::volumeFlow, 5e-5},
-                    Written{"90 deg", units::angle, 1.5707963267948966}, Written{"-9.81", units::acceleration, -9.81},
-                    Written{"+3 m", units::length, 3.0}, Written{"  7  m  ", units::length, 7.0},
-                    Written{"2 min", units::time, 120.0}, Written{"10 kW/m^2", units::heatFlux, 1e4},
-                    Written{"1 N/m^2", units::pressure, 1.0}, Written{"1 (kg/m)/s^2", units::pressure, 1.0},
+                    Written{"90 deg", units::angle, 1.5707963267948966}, Written{"0", units::angle, 0.0},
+                    Written{"-9.81", units::acceleration, -9.81}, Written{"+3 m", units::length, 3.0},
+                    Written{"  7  m  ", units::length, 7.0}, Written{"2 min", units::time, 120.0},
+                    Written{"10 kW/m^2", units::heatFlux, 1e4}, Written{"1 N/m^2", units::pressure, 1.0},
+                    Written{"1 (kg/m)/s^2", units::pressure, 1.0},
                     Written{"750 Torr", units::pressure, 99991.776315789473}));
 
 struct Refused {
@@ -68,6 +69,9 @@ INSTANTIATE_TEST_SUITE_P(
     Units, BadQuantities,
     testing::Values(
         Refused{"20 cm", units::velocity, "expected a velocity (for instance '20 cm/s'), found '20 cm', a length"},
+        Refused{"1500", units::angularVelocity,
+                "expected a speed of revolution (for instance '1000 rpm'), found '1500' without a unit"},
+        Refused{"-142", units::angle, "found '-142' without a unit"},
         Refused{"5 deg", units::dimensionless, "found '5 deg', an angle"},
         Refused{"fast", units::velocity, "expected a velocity (for instance '20 cm/s'), found 'fast'"},
         Refused{"20 parsec", units::length, "'parsec' is not a unit known here"},
