@@ -70,7 +70,7 @@ class Checker {
     for (const auto& [other, key] :
          {Names("mole_fractions", "composition"), Names("X", "composition"), Names("Y", "mass_fractions"),
           Names("reactants", "composition"), Names("phi", "equivalence_ratio"), Names("T", "temperature"),
-          Names("p", "pressure"), Names("P", "pressure")})
+          Names("p", "pressure"), Names("P", "pressure"), Names("composition", "mole_fractions")})
       if (name == other && std::ranges::find(here, key) != here.end()) return fmt::format("; did you mean '{}'?", key);
     return {};
   }

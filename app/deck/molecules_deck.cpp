@@ -3,12 +3,15 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/deck/pah_rates_deck.hpp"
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/tree_material_deck.hpp"
+#include "chemistry/mechanism/known_species.hpp"
+#include "particles/pah/molecule.hpp"
 #include "particles/pah/named_molecules.hpp"
 
 namespace lampblack::app {
@@ -94,6 +97,29 @@ bool isGasGiven(const Deck& deck) {
   return deck.choice("problem") == "prescribed_gas" && deck.choice("gas.exchange") == "one_way";
 }
 
+// The species of the gas that is the molecule: the deck's; or the mechanism's by the molecule's name, by the name that
+// mechanisms of soot have for it, or by its formula.
+std::string readPrecursor(const Deck& deck, const Mechanism& mechanism, const std::vector<LatticeCell>& rings) {
+  if (deck.isGiven("particles.pah")) {
+    const std::vector<std::string> pah = deck.strings("particles.pah");
+    if (pah.size() != 1)
+      throw deck.error("particles.pah", fmt::format("molecules are of one species, not of {}", pah.size()));
+    deck.at("particles.pah", [&] { return mechanism.speciesIndex(pah[0]); });
+    return pah[0];
+  }
+  const std::string name = deck.string(section + ".molecule");
+  const Molecule molecule(rings);
+  const std::string formula = fmt::format("C{}H{}", molecule.carbon(), molecule.hydrogen());
+  for (const auto& [of, brief] : {std::pair("benzene", "A1"), std::pair("naphthalene", "A2"),
+                                  std::pair("phenanthrene", "A3"), std::pair("pyrene", "A4")})
+    if (name == of && mechanism.findSpecies(brief)) return brief;
+  for (const std::string& called : {name, formula})
+    if (const auto k = findKnownSpecies(mechanism, called)) return mechanism.speciesName(*k);
+  throw deck.error("particles.pah", fmt::format("which species of the mechanism is {} ({})? Name it, '[A4]'; without "
+                                                "one, choose another mechanism or particles.molecules.molecule",
+                                                name, formula));
+}
+
 }  // namespace
 
 void addMoleculeKeys(DeckSchema& schema) {
@@ -135,12 +161,8 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
   for (const char* key : meaningless)
     if (deck.isGiven(key)) throw deck.error(key, "has no meaning with 'description: molecules'; leave it out");
   MoleculeOptions o;
-  const std::vector<std::string> pah = deck.strings("particles.pah");
-  if (pah.size() != 1)
-    throw deck.error("particles.pah", fmt::format("molecules are of one species, not of {}", pah.size()));
-  o.precursor = pah[0];
-  deck.at("particles.pah", [&] { return mechanism.speciesIndex(o.precursor); });
   o.rings = deck.at(section + ".molecule", [&] { return namedMolecule(deck.string(section + ".molecule")); });
+  o.precursor = readPrecursor(deck, mechanism, o.rings);
   using Inception = MoleculeOptions::Inception;
   const std::string inception = section + ".inception";
   o.inception = deck.choice(inception) == "pairs" ? Inception::pairs : Inception::asInGas;

@@ -78,11 +78,13 @@ void addInception(DeckSchema& schema) {
 
 void addPhysics(DeckSchema& schema) {
   schema
-      .add(stringKey("particles.pah",
-                     "PAH species that make dimers or nuclei: hydrocarbons of ten carbon atoms or more with no more "
-                     "hydrogen than carbon. leung and moss_brookes do not use them.")
-               .list()
-               .byDefault("[A2]"))
+      .add(
+          stringKey("particles.pah",
+                    "PAH species that make dimers or nuclei: hydrocarbons of ten carbon atoms or more with no more "
+                    "hydrogen than carbon. leung and moss_brookes do not use them; with molecules it is the species of "
+                    "particles.molecules.molecule, where the deck does not say another.")
+              .list()
+              .byDefault("[A2]"))
       .add(numberKey(
                "particles.sticking",
                "Probability that two molecules of a PAH stick when they collide, one number for each species of "

@@ -81,6 +81,21 @@ TEST(MoleculesDeck, SaysAllOfTheOptions) {
   EXPECT_EQ(ownerOf({population->pack()[packedOwnerAt], population->pack()[packedOwnerAt + 1]}), 5U);
 }
 
+TEST(MoleculesDeck, TheSpeciesIsFoundByTheMolecule) {
+  const auto mechanism = shippedMechanism(mechanismOfMolecules);
+  const auto precursor = [&](const std::string& molecule) {
+    const std::string text =
+        "problem: reactor\nmechanism: m.yaml\nreactor: {type: constant_pressure}\ntime: {end: 1 s}\n"
+        "particles: {description: molecules, molecules: {molecule: " +
+        molecule + "}}\n";
+    return readMoleculeOptions(Deck::parse(text, "deck.yaml", {}, reactorSchema()), mechanism).precursor;
+  };
+  EXPECT_EQ(precursor("pyrene"), "A4");
+  EXPECT_EQ(precursor("naphthalene"), "A2");
+  EXPECT_THAT(test::messageOf<InputError>([&] { (void)precursor("coronene"); }),
+              testing::HasSubstr("which species of the mechanism is coronene (C24H12)?"));
+}
+
 TEST(MoleculesDeck, PrimariesHaveALawOfSinteringAndAFractalDimension) {
   const MoleculeOptions o = readMoleculeOptions(
       moleculesDeck("  fractal_dimension: 1.7\n  sintering: {mechanism: constant, prefactor: 1e-3}\n"),
