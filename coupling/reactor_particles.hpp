@@ -2,7 +2,6 @@
 // amounts, and the gas at a state of a reactor as the particles see it.
 #pragma once
 
-#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -11,18 +10,14 @@
 #include "chemistry/reactor/carried_phase.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/transport.hpp"
+#include "core/air.hpp"
 #include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
 
 namespace lampblack::coupling {
 
-// Of the gas as particles see it: from transport data; or that of air by Sutherland's law, 1.458e-6 T^1.5/(T + 110.4)
-// Pa s (as in Kazakov and Frenklach 1998), for mechanisms without.
+// Of the gas as particles see it: from transport data; or that of air (viscosityOfAir), for mechanisms without.
 enum class GasViscosity { transport, air };
-[[nodiscard]] inline double viscosityOfAir(double T) {
-  return 1.458e-6 * T * std::sqrt(T) / (T + 110.4);
-}
-
 // The gas of a reactor at a state of it: all concentrations, and those that particles see.
 class ReactorGas {
  public:

@@ -14,6 +14,8 @@
 // A member is a pointer to one, or anything that gives a reference to it (io::inner, a lambda). Unless the rules say
 // otherwise, a key of a std::optional is optional, and another has as default what the options have by themselves; a
 // list is a std::vector, one of a known length a std::array. Where the deck has no value, that of the options stays.
+// A key without a member is read by hand (SectionKeys, which has no options at all); it is required unless the rules
+// say otherwise.
 #pragma once
 
 #include <fmt/format.h>
@@ -38,6 +40,61 @@ namespace lampblack::io {
 [[nodiscard]] inline DeckKey rules() {
   return {"", KeyType::number, ""};
 }
+
+// Keys of a section that are declared, and read by hand.
+class SectionKeys {
+ public:
+  // `section` is the path that the keys have in common, "" for none.
+  explicit SectionKeys(std::string section) : section_(std::move(section)) {}
+
+  // The section itself, where it needs more than its keys (DeckSchema::section).
+  void section(Presence presence, std::string doc, std::vector<DeckCondition> onlyWith = {}) {
+    schema_.section(section_, presence, std::move(doc), std::move(onlyWith));
+  }
+  // The same of a section in it.
+  void section(const std::string& name, Presence presence, std::string doc, std::vector<DeckCondition> onlyWith = {}) {
+    schema_.section(joinedPath(section_, name), presence, std::move(doc), std::move(onlyWith));
+  }
+
+  void number(const std::string& name, DeckKey key, std::string doc) {
+    add(name, KeyType::number, std::move(key), std::move(doc));
+  }
+  void quantity(const std::string& name, const units::Dimension& dimension, DeckKey key, std::string doc) {
+    key.dimension = dimension;
+    add(name, KeyType::quantity, std::move(key), std::move(doc));
+  }
+  void integer(const std::string& name, DeckKey key, std::string doc) {
+    add(name, KeyType::integer, std::move(key), std::move(doc));
+  }
+  void boolean(const std::string& name, DeckKey key, std::string doc) {
+    add(name, KeyType::boolean, std::move(key), std::move(doc));
+  }
+  void text(const std::string& name, DeckKey key, std::string doc) {
+    add(name, KeyType::string, std::move(key), std::move(doc));
+  }
+  void choice(const std::string& name, std::vector<std::string> words, DeckKey key, std::string doc) {
+    key.choices = std::move(words);
+    add(name, KeyType::choice, std::move(key), std::move(doc));
+  }
+  // A key that has its path and all.
+  void add(DeckKey key) { schema_.add(std::move(key)); }
+
+  [[nodiscard]] const DeckSchema& schema() const { return schema_; }
+  // For keys that stand among these and are declared elsewhere.
+  [[nodiscard]] DeckSchema& schema() { return schema_; }
+  [[nodiscard]] const std::string& path() const { return section_; }
+
+ protected:
+  void add(const std::string& name, KeyType type, DeckKey key, std::string doc) {
+    key.path = joinedPath(section_, name);
+    key.type = type;
+    key.doc = std::move(doc);
+    schema_.add(std::move(key));
+  }
+
+  std::string section_;
+  DeckSchema schema_;
+};
 
 // A member of a member, inner(&Case::time, &Times::end).
 template <typename Outer, typename Inner>
@@ -102,7 +159,7 @@ void assignList(Member& member, const Values& values) {
 }  // namespace deckkeys
 
 template <typename Options>
-class DeckKeys {
+class DeckKeys : public SectionKeys {
  public:
   template <typename Member>
   using Value = deckkeys::ValueOf<Options, Member>;
@@ -112,16 +169,14 @@ class DeckKeys {
 
   // `section` is the path that the keys have in common, "" for none; `defaults` what the keys have by default.
   explicit DeckKeys(std::string section, Options defaults = {})
-      : section_(std::move(section)), defaults_(std::move(defaults)) {}
+      : SectionKeys(std::move(section)), defaults_(std::move(defaults)) {}
 
-  // The section itself, where it needs more than its keys (DeckSchema::section).
-  void section(Presence presence, std::string doc, std::vector<DeckCondition> onlyWith = {}) {
-    schema_.section(section_, presence, std::move(doc), std::move(onlyWith));
-  }
-  // The same of a section in it.
-  void section(const std::string& name, Presence presence, std::string doc) {
-    schema_.section(joinedPath(section_, name), presence, std::move(doc));
-  }
+  using SectionKeys::boolean;
+  using SectionKeys::choice;
+  using SectionKeys::integer;
+  using SectionKeys::number;
+  using SectionKeys::quantity;
+  using SectionKeys::text;
 
   template <typename Member>
   void number(const std::string& name, Member member, DeckKey key, std::string doc) {
@@ -175,19 +230,19 @@ class DeckKeys {
           throw std::logic_error(fmt::format("deck key '{}': no choice is the default", joinedPath(section_, name)));
       }
     }
-    add(name, KeyType::choice, isList<Member> ? key.list() : key, std::move(doc),
-        [member, choices](const Deck& deck, const std::string& path, Options& options) {
-          const auto valueOf = [&](const std::string& word) {
-            return std::ranges::find(choices, word, &Choices<Member>::value_type::first)->second;
-          };
-          auto& into = std::invoke(member, options);
-          if constexpr (isList<Member>) {
-            into.clear();
-            for (const std::string& word : deck.strings(path)) into.push_back(valueOf(word));
-          } else {
-            into = valueOf(deck.choice(path));
-          }
-        });
+    bind(name, KeyType::choice, isList<Member> ? key.list() : key, std::move(doc),
+         [member, choices](const Deck& deck, const std::string& path, Options& options) {
+           const auto valueOf = [&](const std::string& word) {
+             return std::ranges::find(choices, word, &Choices<Member>::value_type::first)->second;
+           };
+           auto& into = std::invoke(member, options);
+           if constexpr (isList<Member>) {
+             into.clear();
+             for (const std::string& word : deck.strings(path)) into.push_back(valueOf(word));
+           } else {
+             into = valueOf(deck.choice(path));
+           }
+         });
   }
   // One of several words, kept as it is.
   template <typename Member>
@@ -197,21 +252,16 @@ class DeckKeys {
     for (const std::string& each : words) choices.emplace_back(each, each);
     choice(name, member, choices, std::move(key), std::move(doc));
   }
-  // A key of any kind, `key` with its type, that is read by hand: into the options by `read`, or elsewhere.
-  void other(const std::string& name, KeyType type, DeckKey key, std::string doc, Read read = {}) {
-    add(name, type, std::move(key), std::move(doc), std::move(read));
+  // A key of any kind that `read` takes into the options.
+  void other(const std::string& name, KeyType type, DeckKey key, std::string doc, Read read) {
+    bind(name, type, std::move(key), std::move(doc), std::move(read));
   }
-  // The same of a key that has its path and all.
-  void other(DeckKey key) { schema_.add(std::move(key)); }
-
-  [[nodiscard]] const DeckSchema& schema() const { return schema_; }
-  [[nodiscard]] const std::string& path() const { return section_; }
 
   // What the deck says, into what is there; `at` is the section where its path has names or items, "methods.mine".
   void read(const Deck& deck, Options& options, const std::string& at) const {
     for (const auto& [name, read] : reads_) {
       const std::string key = joinedPath(at, name);
-      if (read && deck.isThere(key)) read(deck, key, options);
+      if (deck.isThere(key)) read(deck, key, options);
     }
   }
   [[nodiscard]] Options read(const Deck& deck, const std::string& at) const {
@@ -229,11 +279,8 @@ class DeckKeys {
   template <typename Member>
   static constexpr bool isOptional = Unwrapped<Member>::isOptional;
 
-  void add(const std::string& name, KeyType type, DeckKey key, std::string doc, Read read) {
-    key.path = joinedPath(section_, name);
-    key.type = type;
-    key.doc = std::move(doc);
-    schema_.add(std::move(key));
+  void bind(const std::string& name, KeyType type, DeckKey key, std::string doc, Read read) {
+    add(name, type, std::move(key), std::move(doc));
     reads_.emplace_back(name, std::move(read));
   }
 
@@ -249,7 +296,7 @@ class DeckKeys {
       key.isList = true;
       if constexpr (Unwrapped<Member>::count > 0) key.count = Unwrapped<Member>::count;
     }
-    add(name, type, std::move(key), std::move(doc), std::move(read));
+    bind(name, type, std::move(key), std::move(doc), std::move(read));
   }
 
   template <typename Member>
@@ -266,9 +313,7 @@ class DeckKeys {
              });
   }
 
-  std::string section_;
   Options defaults_;
-  DeckSchema schema_;
   std::vector<std::pair<std::string, Read>> reads_;
 };
 

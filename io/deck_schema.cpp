@@ -223,6 +223,7 @@ DeckSchema& DeckSchema::section(std::string path, Presence presence, std::string
 DeckSchema& DeckSchema::add(const DeckSchema& other) {
   for (const DeckKey& key : other.keys_) add(key);
   for (const DeckSection& part : other.sections_) section(part.path, part.presence, part.doc, part.conditions);
+  if (!other.former_.table.empty()) former_ = other.former_;
   return *this;
 }
 

@@ -128,4 +128,39 @@ double GridTable::value(std::size_t column, std::span<const double> place) const
   return sum;
 }
 
+void fillHoles(GridTable::Numbers& numbers) {
+  std::array<std::vector<double>, 2> points;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    points[axis] = numbers.places[axis];
+    std::ranges::sort(points[axis]);
+    points[axis].erase(std::unique(points[axis].begin(), points[axis].end()), points[axis].end());
+  }
+  const std::size_t rows = numbers.places[0].size(), across = points[1].size(), all = points[0].size() * across;
+  constexpr std::size_t none = static_cast<std::size_t>(-1);
+  std::vector<std::size_t> rowAt(all, none), found;
+  for (std::size_t row = 0; row < rows; ++row) {
+    std::size_t at = 0;
+    for (std::size_t axis = 0; axis < 2; ++axis)
+      at = at * across + static_cast<std::size_t>(std::ranges::lower_bound(points[axis], numbers.places[axis][row]) -
+                                                  points[axis].begin());
+    rowAt[at] = row;
+    found.push_back(at);
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const std::size_t at = found[i];
+    const auto visit = [&](bool isThere, std::size_t next) {
+      if (!isThere || rowAt[next] != none) return;
+      rowAt[next] = rowAt[at];
+      found.push_back(next);
+      numbers.places[0].push_back(points[0][next / across]);
+      numbers.places[1].push_back(points[1][next % across]);
+      for (std::vector<double>& column : numbers.columns) column.push_back(column[rowAt[at]]);
+    };
+    visit(at % across > 0, at - 1);
+    visit(at % across + 1 < across, at + 1);
+    visit(at >= across, at - across);
+    visit(at + across < all, at + across);
+  }
+}
+
 }  // namespace lampblack::io

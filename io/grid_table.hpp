@@ -60,4 +60,8 @@ class GridTable {
   std::vector<std::vector<double>> values_;  // of each column, the last axis fastest
 };
 
+// Of rows in a plane, some of whose places are missing: there the values are those of a row next to them, so that the
+// rows span a grid.
+void fillHoles(GridTable::Numbers& numbers);
+
 }  // namespace lampblack::io

@@ -12,58 +12,21 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
-namespace {
-
-// Oxygen atoms a mole of this mixture needs to burn completely; negative where it has some to give.
-double oxygenNeed(const Mechanism& mechanism, const std::vector<double>& X) {
-  double need = 0;
-  for (const auto& [name, atoms] : {std::pair{"C", 2.0}, {"H", 0.5}, {"S", 2.0}, {"Si", 2.0}, {"O", -1.0}}) {
-    const auto element = mechanism.findElement(name);
-    if (!element) continue;
-    for (std::size_t k = 0; k < X.size(); ++k) need += atoms * X[k] * mechanism.atoms(k, *element);
-  }
-  return need;
-}
-
-}  // namespace
-
 void addMixtureKeys(DeckSchema& schema, const std::string& section) {
-  schema
-      .add(stringKey(section + ".composition",
-                     "Mole fractions, 'CH4: 1, O2: 2, N2: 7.52'; any sum. A name with ':' or '=' "
-                     "stands in quotes of its own.")
-               .optional())
-      .add(stringKey(
-               section + ".mass_fractions",
-               "Mass fractions, in place of mole fractions and written like them, 'CH4: 0.05, O2: 0.22, N2: 0.73'.")
-               .optional())
-      .add(stringKey(
-               section + ".fuel",
-               "Mole fractions of the fuel, 'CH4: 1'; with oxidizer and equivalence_ratio, in place of a composition.")
-               .optional())
-      .add(
-          stringKey(section + ".oxidizer", "Mole fractions of what the fuel burns with, 'O2: 1, N2: 3.76'.").optional())
-      .add(numberKey(section + ".equivalence_ratio",
-                     "Equivalence ratio of fuel and oxidizer: 1 is stoichiometric, above 1 rich.")
-               .optional()
-               .atLeast(0));
-}
-
-std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
-                                          const std::vector<double>& oxidizer, double ratio) {
-  const double need = oxygenNeed(mechanism, fuel), spare = -oxygenNeed(mechanism, oxidizer);
-  if (!(need > 0))
-    throw InputError("the fuel needs no oxygen, so that it has no equivalence ratio; expected a fuel that burns");
-  if (!(spare > 0))
-    throw InputError(
-        "the oxidizer has no oxygen to give, so that it has no equivalence ratio; expected one with O2 or the like");
-  std::vector<double> X(fuel.size());
-  double sum = 0;
-  for (std::size_t k = 0; k < X.size(); ++k) sum += X[k] = ratio * spare / need * fuel[k] + oxidizer[k];
-  for (double& x : X) x /= sum;
-  return X;
+  SectionKeys keys(section);
+  keys.text("composition", rules().optional(),
+            "Mole fractions, 'CH4: 1, O2: 2, N2: 7.52'; any sum. A name with ':' or '=' stands in quotes of its own.");
+  keys.text("mass_fractions", rules().optional(),
+            "Mass fractions, in place of mole fractions and written like them, 'CH4: 0.05, O2: 0.22, N2: 0.73'.");
+  keys.text("fuel", rules().optional(),
+            "Mole fractions of the fuel, 'CH4: 1'; with oxidizer and equivalence_ratio, in place of a composition.");
+  keys.text("oxidizer", rules().optional(), "Mole fractions of what the fuel burns with, 'O2: 1, N2: 3.76'.");
+  keys.number("equivalence_ratio", rules().optional().atLeast(0),
+              "Equivalence ratio of fuel and oxidizer: 1 is stoichiometric, above 1 rich.");
+  schema.add(keys.schema());
 }
 
 std::vector<double> readMixture(const Deck& deck, const std::string& section, const Mechanism& mechanism) {
@@ -99,11 +62,12 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
 }
 
 void addMechanismKeys(DeckSchema& schema) {
-  schema
-      .add(stringKey("mechanism",
-                     "Mechanism file in Cantera's YAML format, relative to the deck; or the name of one that ships "
-                     "(`lampblack where mechanisms`)."))
-      .add(stringKey("phase", "Name of the phase of the mechanism file; without it the first ideal gas.").optional());
+  SectionKeys keys("");
+  keys.text("mechanism", rules(),
+            "Mechanism file in Cantera's YAML format, relative to the deck; or the name of one that ships (`lampblack "
+            "where mechanisms`).");
+  keys.text("phase", rules().optional(), "Name of the phase of the mechanism file; without it the first ideal gas.");
+  schema.add(keys.schema());
 }
 
 std::shared_ptr<const Mechanism> readMechanism(const Deck& deck) {

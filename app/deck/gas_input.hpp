@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "chemistry/mechanism/mechanism.hpp"
+#include "chemistry/thermo/equivalence_ratio.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/modules.hpp"
 #include "io/deck.hpp"
@@ -18,11 +19,6 @@ void addMixtureKeys(DeckSchema& schema, const std::string& section);
 
 // The mass fractions a section names, in one of the three ways. InputError where it names none or several.
 std::vector<double> readMixture(const Deck& deck, const std::string& section, const Mechanism& mechanism);
-
-// Mole fractions of fuel and oxidizer (mole fractions each) mixed at an equivalence ratio: the fuel's need of oxygen
-// atoms (2 C + H/2 + 2 S + 2 Si - O) over what the oxidizer has to give. InputError where there is no such ratio.
-std::vector<double> mixByEquivalenceRatio(const Mechanism& mechanism, const std::vector<double>& fuel,
-                                          const std::vector<double>& oxidizer, double ratio);
 
 // Adds `mechanism` and `phase`.
 void addMechanismKeys(DeckSchema& schema);

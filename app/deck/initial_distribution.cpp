@@ -13,6 +13,7 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
+#include "io/deck_keys.hpp"
 #include "io/table_column.hpp"
 #include "particles/population/exact_solutions/initial_distribution.hpp"
 
@@ -149,6 +150,7 @@ double readParticleSize(const Deck& deck, const std::string& section, const std:
 }
 
 void addDistribution(DeckSchema& schema, const std::string& at, Presence presence) {
+  SectionKeys keys(at);
   const std::string key = at + ".distribution";
   DeckKey type = choiceKey(key, {"none", "monodisperse", "exponential", "lognormal", "table"},
                            "Distribution of the volumes of the particles at time zero (lognormal: of their diameters); "
@@ -166,22 +168,17 @@ void addDistribution(DeckSchema& schema, const std::string& at, Presence presenc
   } else {
     number.onlyWith(key, spread);
   }
-  schema.add(type).add(number);
-  addParticleSize(schema, at, "of all (monodisperse), mean (exponential) or median by number (lognormal)",
+  keys.add(type);
+  keys.add(number);
+  addParticleSize(keys.schema(), at, "of all (monodisperse), mean (exponential) or median by number (lognormal)",
                   {{key, spread}});
-  schema
-      .add(numberKey(at + ".geometric_deviation", "Geometric standard deviation of the diameter.")
-               .optional()
-               .above(1)
-               .atMost(100)
-               .onlyWith(key, {"lognormal"}))
-      .add(
-          stringKey(at + ".file",
-                    "CSV file, relative to the deck, with columns 'from [nm],to [nm],number [1/cm^3]' or "
-                    "'diameter [nm],dN/dlogd [1/cm^3]', the logarithm to the base 10 (dN/dlnd: the natural one). Sizes "
-                    "are diameters, or volumes where their unit is one; a row's number lies evenly over the logarithm.")
-              .optional()
-              .onlyWith(key, {"table"}));
+  keys.number("geometric_deviation", rules().optional().above(1).atMost(100).onlyWith(key, {"lognormal"}),
+              "Geometric standard deviation of the diameter.");
+  keys.text("file", rules().optional().onlyWith(key, {"table"}),
+            "CSV file, relative to the deck, with columns 'from [nm],to [nm],number [1/cm^3]' or 'diameter "
+            "[nm],dN/dlogd [1/cm^3]', the logarithm to the base 10 (dN/dlnd: the natural one). Sizes are diameters, or "
+            "volumes where their unit is one; a row's number lies evenly over the logarithm.");
+  schema.add(keys.schema());
 }
 
 InitialPopulation readDistribution(const Deck& deck, const std::string& section) {

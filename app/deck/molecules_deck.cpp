@@ -11,6 +11,7 @@
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/tree_material_deck.hpp"
 #include "chemistry/mechanism/known_species.hpp"
+#include "io/deck_keys.hpp"
 #include "particles/pah/molecule.hpp"
 #include "particles/pah/named_molecules.hpp"
 
@@ -31,57 +32,45 @@ constexpr const char* meaningless[] = {"particles.sticking",      "particles.alp
                                        "particles.keep_hydrogen", "particles.active_sites", "particles.surface",
                                        "particles.alpha_table"};
 
-void addCollisions(DeckSchema& schema) {
-  schema
-      .add(choiceKey(section + ".inception", {"pairs", "as_in_gas"},
-                     "How molecules of the gas become particles. pairs: two that collide and stick are a particle, and "
-                     "single ones condense on particles; as_in_gas: as many particles of one molecule are there as the "
-                     "gas has molecules of particles.pah, and meet others as particles do, in a gas that stays as it "
-                     "is given: prescribed_gas, one way.")
-               .byDefault("pairs"))
-      .add(numberKey(section + ".inception_efficiency",
-                     "Factor of the collisions of pairs that become a particle, besides what sticks.")
-               .byDefault("1")
-               .atLeast(0)
-               .atMost(1)
-               .onlyWith(section + ".inception", {"pairs"}))
-      .add(numberKey(section + ".condensation_efficiency",
-                     "Factor of the collisions of molecules of the gas with particles, besides what sticks.")
-               .byDefault("1")
-               .atLeast(0)
-               .atMost(1)
-               .onlyWith(section + ".inception", {"pairs"}))
-      .add(choiceKey(section + ".sticks", {"always", "smaller", "larger", "together", "reduced", "by_size"},
-                     "Which molecules stick to each other and to particles, of which the largest molecule counts: all; "
-                     "where the smaller one, the larger one, both together, or the product over the sum of both has "
-                     "sticking_rings; by_size: with the probability 1/(1 + exp(-A (d^3/m + (m/B)^6 - C))) of the "
-                     "smaller one, d in Angstrom, m = 12 times its carbon atoms. Particles of several molecules always "
-                     "stick to each other.")
-               .byDefault("always"))
-      .add(numberKey(section + ".sticking_rings", "Rings that are needed to stick.")
-               .byDefault("0")
-               .atLeast(0)
-               .onlyWith(section + ".sticks", {"smaller", "larger", "together", "reduced"}))
-      .add(numberKey(section + ".sticking_constants", "A, B and C of by_size.")
-               .list(3)
-               .optional()
-               .onlyWith(section + ".sticks", {"by_size"}));
+DeckKeys<MoleculeOptions> collisionKeys() {
+  using Options = MoleculeOptions;
+  using Rule = MoleculeSticking::Rule;
+  constexpr auto sticking = [](auto member) { return inner(&Options::sticking, member); };
+  DeckKeys<MoleculeOptions> keys(section);
+  keys.choice(
+      "inception", &Options::inception,
+      {{"pairs", Options::Inception::pairs}, {"as_in_gas", Options::Inception::asInGas}}, rules().byDefault("pairs"),
+      "How molecules of the gas become particles. pairs: two that collide and stick are a particle, and single ones "
+      "condense on particles; as_in_gas: as many particles of one molecule are there as the gas has molecules of "
+      "particles.pah, and meet others as particles do, in a gas that stays as it is given: prescribed_gas, one way.");
+  keys.number("inception_efficiency", &Options::inceptionEfficiency,
+              rules().byDefault("1").atLeast(0).atMost(1).onlyWith(section + ".inception", {"pairs"}),
+              "Factor of the collisions of pairs that become a particle, besides what sticks.");
+  keys.number("condensation_efficiency", &Options::condensationEfficiency,
+              rules().byDefault("1").atLeast(0).atMost(1).onlyWith(section + ".inception", {"pairs"}),
+              "Factor of the collisions of molecules of the gas with particles, besides what sticks.");
+  keys.choice("sticks", sticking(&MoleculeSticking::rule),
+              {{"always", Rule::always},
+               {"smaller", Rule::smaller},
+               {"larger", Rule::larger},
+               {"together", Rule::together},
+               {"reduced", Rule::reduced},
+               {"by_size", Rule::bySize}},
+              rules().byDefault("always"),
+              "Which molecules stick to each other and to particles, of which the largest molecule counts: all; where "
+              "the smaller one, the larger one, both together, or the product over the sum of both has sticking_rings; "
+              "by_size: with the probability 1/(1 + exp(-A (d^3/m + (m/B)^6 - C))) of the smaller one, d in Angstrom, "
+              "m = 12 times its carbon atoms. Particles of several molecules always stick to each other.");
+  keys.number(
+      "sticking_rings", sticking(&MoleculeSticking::rings),
+      rules().byDefault("0").atLeast(0).onlyWith(section + ".sticks", {"smaller", "larger", "together", "reduced"}),
+      "Rings that are needed to stick.");
+  keys.number("sticking_constants", rules().list(3).optional().onlyWith(section + ".sticks", {"by_size"}),
+              "A, B and C of by_size.");
+  return keys;
 }
 
-MoleculeSticking readSticking(const Deck& deck) {
-  using Rule = MoleculeSticking::Rule;
-  MoleculeSticking sticking;
-  const std::string rule = deck.choice(section + ".sticks");
-  sticking.rule = rule == "always"     ? Rule::always
-                  : rule == "smaller"  ? Rule::smaller
-                  : rule == "larger"   ? Rule::larger
-                  : rule == "together" ? Rule::together
-                  : rule == "reduced"  ? Rule::reduced
-                                       : Rule::bySize;
-  if (rule != "by_size") {
-    if (rule != "always") sticking.rings = deck.number(section + ".sticking_rings");
-    return sticking;
-  }
+void readConstants(const Deck& deck, MoleculeSticking& sticking) {
   const std::string key = section + ".sticking_constants";
   if (!deck.has(key)) throw deck.error(section + ".sticks", "by_size needs sticking_constants: A, B, C");
   const std::vector<double> constants = deck.numbers(key);
@@ -89,7 +78,6 @@ MoleculeSticking readSticking(const Deck& deck) {
   sticking.B = constants[1];
   sticking.C = constants[2];
   if (!(sticking.B > 0)) throw deck.error(key, "expected B above zero");
-  return sticking;
 }
 
 // Where the gas is as given, whatever particles take.
@@ -120,52 +108,47 @@ std::string readPrecursor(const Deck& deck, const Mechanism& mechanism, const st
                                                 name, formula));
 }
 
+DeckKeys<MoleculeOptions> moleculeKeys() {
+  DeckKeys<MoleculeOptions> keys(section);
+  keys.section(Presence::defaulted,
+               "Particles of molecules that grow site by site (docs/theory/molecules_in_particles.md). Their matter is "
+               "the one species of particles.pah.",
+               {ofMolecules()});
+  keys.text("molecule", rules().byDefault("pyrene"),
+            "The molecule of particles.pah by its name: " + names(moleculeNames()) + ".");
+  keys.number("growth_factor", &MoleculeOptions::growthFactor, rules().byDefault("1").atLeast(0).atMost(1),
+              "Factor of all rates of molecules in a primary with growth_factor_from of them or more, from 0 to 1: a "
+              "number that is fitted to measurements, not derived; 1 takes them as free.");
+  keys.integer("growth_factor_from", &MoleculeOptions::growthFactorFrom, rules().byDefault("2").atLeast(1),
+               "Molecules of a primary from which on its growth factor holds.");
+  keys.choice("shape", &MoleculeOptions::spheres, {{"primaries", false}, {"spheres", true}},
+              rules().byDefault("primaries"),
+              "What becomes of particles that stick. primaries: they touch at one of each, which share surface, sinter "
+              "by particles.sintering, and become one; spheres: all molecules are in one primary.");
+  keys.choice("processes", pahProcessNames(), rules().list().optional(),
+              "Processes of molecules that take place; absent: all. Their names are those of docs/theory/pah.md.");
+  keys.quantity("at_start", units::perVolume, &MoleculeOptions::atStart, rules().byDefault("0 1/m^3").atLeast(0),
+                "Particles of one molecule that are there at the start.");
+  keys.schema().add(collisionKeys().schema());
+  addPahRateKeys(keys.schema(), section + ".rates");
+  return keys;
+}
+
 }  // namespace
 
 void addMoleculeKeys(DeckSchema& schema) {
-  schema.section(section, Presence::defaulted,
-                 "Particles of molecules that grow site by site (docs/theory/molecules_in_particles.md). Their matter "
-                 "is the one species of particles.pah.",
-                 {ofMolecules()});
-  schema
-      .add(
-          stringKey(section + ".molecule", "The molecule of particles.pah by its name: " + names(moleculeNames()) + ".")
-              .byDefault("pyrene"))
-      .add(numberKey(section + ".growth_factor",
-                     "Factor of all rates of molecules in a primary with growth_factor_from of them or more, from 0 to "
-                     "1: a number that is fitted to measurements, not derived; 1 takes them as free.")
-               .byDefault("1")
-               .atLeast(0)
-               .atMost(1))
-      .add(integerKey(section + ".growth_factor_from", "Molecules of a primary from which on its growth factor holds.")
-               .byDefault("2")
-               .atLeast(1))
-      .add(choiceKey(section + ".shape", {"primaries", "spheres"},
-                     "What becomes of particles that stick. primaries: they touch at one of each, which share surface, "
-                     "sinter by particles.sintering, and become one; spheres: all molecules are in one primary.")
-               .byDefault("primaries"))
-      .add(
-          choiceKey(section + ".processes", pahProcessNames(),
-                    "Processes of molecules that take place; absent: all. Their names are those of docs/theory/pah.md.")
-              .list()
-              .optional())
-      .add(
-          quantityKey(section + ".at_start", units::perVolume, "Particles of one molecule that are there at the start.")
-              .byDefault("0 1/m^3")
-              .atLeast(0));
-  addCollisions(schema);
-  addPahRateKeys(schema, section + ".rates");
+  schema.add(moleculeKeys().schema());
 }
 
 MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism) {
   for (const char* key : meaningless)
     if (deck.isGiven(key)) throw deck.error(key, "has no meaning with 'description: molecules'; leave it out");
-  MoleculeOptions o;
+  MoleculeOptions o = moleculeKeys().read(deck);
+  collisionKeys().read(deck, o, section);
   o.rings = deck.at(section + ".molecule", [&] { return namedMolecule(deck.string(section + ".molecule")); });
   o.precursor = readPrecursor(deck, mechanism, o.rings);
   using Inception = MoleculeOptions::Inception;
   const std::string inception = section + ".inception";
-  o.inception = deck.choice(inception) == "pairs" ? Inception::pairs : Inception::asInGas;
   if (o.inception == Inception::asInGas && !isGasGiven(deck))
     throw deck.error(inception,
                      "as_in_gas needs a gas that stays as it is given, 'problem: prescribed_gas' with 'exchange: "
@@ -174,16 +157,9 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
     throw deck.error("particles.condensation",
                      "has no meaning with 'inception: as_in_gas', where molecules are particles that collide; leave it "
                      "out, or set particles.coagulation");
-  if (o.inception == Inception::pairs) {
-    o.inceptionEfficiency = deck.number(section + ".inception_efficiency");
-    o.condensationEfficiency =
-        deck.boolean("particles.condensation") ? deck.number(section + ".condensation_efficiency") : 0;
-  }
+  if (!deck.boolean("particles.condensation") && o.inception == Inception::pairs) o.condensationEfficiency = 0;
   if (!deck.boolean("particles.inception")) o.inception = Inception::none;
-  o.sticking = readSticking(deck);
-  o.growthFactor = deck.number(section + ".growth_factor");
-  o.growthFactorFrom = deck.integer<std::size_t>(section + ".growth_factor_from");
-  o.spheres = deck.choice(section + ".shape") == "spheres";
+  if (o.sticking.rule == MoleculeSticking::Rule::bySize) readConstants(deck, o.sticking);
   for (const char* key : {"particles.sintering", "particles.fractal_dimension"})
     if (o.spheres && deck.isGiven(key))
       throw deck.error(key, "has no meaning with 'shape: spheres', whose particles have one primary; leave it out");
@@ -193,7 +169,6 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
     const bool isOxidation = pahProcesses[p].name[0] == 'O';
     o.active[p] = o.active[p] && deck.boolean(isOxidation ? "particles.oxidation" : "particles.growth");
   }
-  o.atStart = deck.quantity(section + ".at_start");
   o.density = deck.optionalQuantity("particles.density").value_or(o.density);
   o.fractalDimension = deck.optionalNumber("particles.fractal_dimension").value_or(o.fractalDimension);
   o.sintering = readSintering(deck, o.sintering);

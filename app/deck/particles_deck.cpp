@@ -10,6 +10,7 @@
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/trees_deck.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -55,49 +56,37 @@ void addDescription(DeckSchema& schema, const ParticlePlace& place, const std::v
 
 // Of more than one description, or more than one material.
 void addShared(DeckSchema& schema, const ParticlePlace& place) {
-  schema
-      .add(quantityKey("particles.density", units::density,
-                       "Density of particles; absent: of soot 1850 kg/m^3, with sectional and moss_brookes 1800, with "
-                       "leung 2000, of molecules 1470; of silica 2200 kg/m^3. A material of the deck's own needs it.")
-               .optional()
-               .above(0))
-      .add(numberKey("particles.van_der_waals",
-                     "Factor by which van der Waals forces enhance free-molecular collisions of particles, and of the "
-                     "dimers of soot.")
-               .formerly("enhancement")
-               .byDefault("2.2")
-               .above(0))
-      .add(booleanKey("particles.coagulation", "Whether particles that collide become one.").byDefault("true"))
-      .add(booleanKey("particles.diffusion",
-                      "Whether particles diffuse by Brownian motion. Those that are followed along paths never do.")
-               .byDefault("true"));
+  SectionKeys keys("particles");
+  keys.quantity("density", units::density, rules().optional().above(0),
+                "Density of particles; absent: of soot 1850 kg/m^3, with sectional and moss_brookes 1800, with leung "
+                "2000, of molecules 1470; of silica 2200 kg/m^3. A material of the deck's own needs it.");
+  keys.number("van_der_waals", rules().formerly("enhancement").byDefault("2.2").above(0),
+              "Factor by which van der Waals forces enhance free-molecular collisions of particles, and of the dimers "
+              "of soot.");
+  keys.boolean("coagulation", rules().byDefault("true"), "Whether particles that collide become one.");
+  keys.boolean("diffusion", rules().byDefault("true"),
+               "Whether particles diffuse by Brownian motion. Those that are followed along paths never do.");
   const DeckCondition treesOrOther{descriptionKey, {"trees"}, {ofOtherMaterials()}};
-  DeckSchema populations;
-  populations.add(
-      choiceKey("particles.slip", {"davies", "air"},
-                "Slip correction in collisions. davies: Davies (1945), by the gas's mean free path; air: 1 + 1.257 "
-                "Kn, Kn that of air at the gas's temperature and pressure (Shekar et al. 2011, eqs. 37, 38).")
-          .byDefault("davies")
-          .byDefault("air", {ofOtherMaterials()}));
-  populations
-      .add(sampleNumberKey(particleSection, place.ensembleNumber)
-               .formerly("particles")
-               .byDefault(place.treeNumber, {treesOrOther}))
-      .add(splitToleranceKey(particleSection, "0.01")
-               .byDefault("0.05", {{descriptionKey, {"trees", "molecules"}, {ofOtherMaterials()}}}));
-  addSizeBinKeys(populations, particleSection);
+  SectionKeys populations("particles");
+  populations.choice(
+      "slip", {"davies", "air"}, rules().byDefault("davies").byDefault("air", {ofOtherMaterials()}),
+      "Slip correction in collisions. davies: Davies (1945), by the gas's mean free path; air: 1 + 1.257 Kn, Kn that "
+      "of air at the gas's temperature and pressure (Shekar et al. 2011, eqs. 37, 38).");
+  populations.add(sampleNumberKey(particleSection, place.ensembleNumber)
+                      .formerly("particles")
+                      .byDefault(place.treeNumber, {treesOrOther}));
+  populations.add(splitToleranceKey(particleSection, "0.01")
+                      .byDefault("0.05", {{descriptionKey, {"trees", "molecules"}, {ofOtherMaterials()}}}));
+  addSizeBinKeys(populations.schema(), particleSection);
   for (DeckKey& key : sootParticleKeys(particleSection)) populations.add(key.onlyWith(ofSoot()));
-  schema.add(populations, ofPopulations());
-  schema.add(
-      numberKey(
-          "particles.fractal_dimension",
-          "Fractal dimension D_f in the diameter of collision, d_p n_p^(1/D_f) of n_p primaries of d_p. "
-          "Absent: silica, trees of soot and molecules: 1.8, a table: 3; of an ensemble of soot by surface_volume "
-          "the mean of the diameters of the spheres of the particle's volume and of its surface.")
-          .optional()
-          .atLeast(1)
-          .atMost(3)
-          .onlyWith({descriptionKey, {"trees", "molecules", "none"}, {{"particles.shape", {"surface_volume"}}}}));
+  keys.schema().add(populations.schema(), ofPopulations());
+  keys.number("fractal_dimension",
+              rules().optional().atLeast(1).atMost(3).onlyWith(
+                  {descriptionKey, {"trees", "molecules", "none"}, {{"particles.shape", {"surface_volume"}}}}),
+              "Fractal dimension D_f in the diameter of collision, d_p n_p^(1/D_f) of n_p primaries of d_p. Absent: "
+              "silica, trees of soot and molecules: 1.8, a table: 3; of an ensemble of soot by surface_volume the mean "
+              "of the diameters of the spheres of the particle's volume and of its surface.");
+  schema.add(keys.schema());
 }
 
 std::string textOfDescription(const Deck& deck) {

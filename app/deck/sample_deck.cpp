@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/deck/particles_deck.hpp"
+#include "io/deck_keys.hpp"
 #include "io/request_limits.hpp"
 
 namespace lampblack::app {
@@ -26,51 +27,35 @@ DeckKey splitToleranceKey(const std::string& section, const std::string& splitTo
 }
 
 void addRepeatKeys(DeckSchema& schema) {
-  DeckSchema part;
-  part.add(integerKey("particles.repeats", "Number of independent repeats, from which mean and confidence follow.")
-               .byDefault("8")
-               .atLeast(2)
-               .atMost(100000))
-      .add(integerKey("particles.seed",
-                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
-               .byDefault("1")
-               .atLeast(0));
-  schema.add(part, ofPopulations());
+  SectionKeys part("particles");
+  part.integer("repeats", rules().byDefault("8").atLeast(2).atMost(100000),
+               "Number of independent repeats, from which mean and confidence follow.");
+  part.integer("seed", rules().byDefault("1").atLeast(0),
+               "Start of the random numbers: another seed gives another sample, the same seed the same result.");
+  schema.add(part.schema(), ofPopulations());
 }
 
 void addCouplingKeys(DeckSchema& schema) {
-  DeckSchema part;
-  part.add(choiceKey(
-               "particles.coupling", {"splitting", "predictor_corrector"},
-               "How gas and particles go on together, both of second order. splitting: half a step of the gas, the "
-               "particles, half a step of the gas (Strang 1968); predictor_corrector: the gas with the exchange that "
-               "is expected, the particles in its mean, the difference, for species that live shorter than a step; "
-               "not in networks.")
-               .byDefault("splitting"))
-      .add(numberKey(
-               "particles.coupling_change",
-               "Steps of the coupling are so long that a concentration which the particles see changes by about this "
-               "part of itself, or the temperature by this part of 200 K.")
-               .byDefault("0.05")
-               .above(0)
-               .atMost(1));
-  schema.add(part, ofPopulations());
+  SectionKeys part("particles");
+  part.choice(
+      "coupling", {"splitting", "predictor_corrector"}, rules().byDefault("splitting"),
+      "How gas and particles go on together, both of second order. splitting: half a step of the gas, the particles, "
+      "half a step of the gas (Strang 1968); predictor_corrector: the gas with the exchange that is expected, the "
+      "particles in its mean, the difference, for species that live shorter than a step; not in networks.");
+  part.number("coupling_change", rules().byDefault("0.05").above(0).atMost(1),
+              "Steps of the coupling are so long that a concentration which the particles see changes by about this "
+              "part of itself, or the temperature by this part of 200 K.");
+  schema.add(part.schema(), ofPopulations());
 }
 
 void addSizeBinKeys(DeckSchema& schema, const std::string& section, const std::string& largest) {
-  schema
-      .add(integerKey(section + ".bins", "Number of bins of the size distributions.")
-               .byDefault("60")
-               .atLeast(2)
-               .atMost(10000))
-      .add(quantityKey(section + ".smallest", units::length,
-                       "Smallest diameter of the size distributions, the lower end of their bins.")
-               .byDefault("0.5 nm")
-               .above(0))
-      .add(quantityKey(section + ".largest", units::length,
-                       "Largest diameter of the size distributions, the upper end of their bins.")
-               .byDefault(largest)
-               .above(0));
+  SectionKeys keys(section);
+  keys.integer("bins", rules().byDefault("60").atLeast(2).atMost(10000), "Number of bins of the size distributions.");
+  keys.quantity("smallest", units::length, rules().byDefault("0.5 nm").above(0),
+                "Smallest diameter of the size distributions, the lower end of their bins.");
+  keys.quantity("largest", units::length, rules().byDefault(largest).above(0),
+                "Largest diameter of the size distributions, the upper end of their bins.");
+  schema.add(keys.schema());
 }
 
 std::size_t readSampleNumber(const Deck& deck, const std::string& section, double bytes) {

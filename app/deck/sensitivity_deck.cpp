@@ -11,6 +11,7 @@
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
 #include "io/csv.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -44,12 +45,12 @@ std::vector<std::size_t> reactionsNamed(const Mechanism& mechanism, const std::s
 
 void addSensitivityKeys(DeckSchema& schema, const std::string& doc, const std::string& of,
                         std::vector<DeckCondition> onlyWith) {
-  schema.section("sensitivity", Presence::optional, doc, std::move(onlyWith))
-      .add(choiceKey("sensitivity.of", {of}, "Result whose sensitivities are computed.").byDefault(of))
-      .add(stringKey("sensitivity.reactions",
-                     "Reactions by their number in the file, from 1, or by their equation; 'all' takes every one.")
-               .list()
-               .byDefault("[all]"));
+  SectionKeys keys("sensitivity");
+  keys.section(Presence::optional, doc, std::move(onlyWith));
+  keys.choice("of", {of}, rules().byDefault(of), "Result whose sensitivities are computed.");
+  keys.text("reactions", rules().list().byDefault("[all]"),
+            "Reactions by their number in the file, from 1, or by their equation; 'all' takes every one.");
+  schema.add(keys.schema());
 }
 
 std::vector<std::size_t> readSensitivityReactions(const Deck& deck, const Mechanism& mechanism) {

@@ -7,6 +7,7 @@
 
 #include "app/deck/particles_deck.hpp"
 #include "chemistry/mechanism/known_species.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -30,104 +31,77 @@ std::string listOf(const RateConstant& k) {
 }
 
 void addSurfaceRates(DeckSchema& schema) {
-  const std::string s = "particles.surface.", law = ", A T^n exp(-E/(R T)): A in cm^3/mol/s, n, E in kcal/mol.";
-  schema.section(
-      "particles.surface", Presence::defaulted,
+  SectionKeys keys("particles.surface");
+  const std::string law = ", A T^n exp(-E/(R T)): A in cm^3/mol/s, n, E in kcal/mol.";
+  keys.section(
+      Presence::defaulted,
       "Rate constants of the surface of soot; the defaults are those of Appel, Bockhorn and Frenklach (2000).");
   const SurfaceRateConstants published;
   for (const SurfaceRateKey& key : surfaceRateKeys)
-    schema.add(numberKey(s + key.name, std::string("Rate constant ") + key.reaction + law)
-                   .list(3)
-                   .byDefault(listOf(published.*key.value)));
-  schema
-      .add(numberKey(s + "close_by_o2", "Rate constant by which O2 counts among what closes radical sites" + law +
-                                            " Absent: as oxidation.")
-               .list(3)
-               .optional())
-      .add(
-          booleanKey(s + "bounded",
-                     "Whether radical sites and C-H sites together are what there is: their ratio r becomes r/(1 + r).")
-              .byDefault("false"));
+    keys.number(key.name, rules().list(3).byDefault(listOf(published.*key.value)),
+                std::string("Rate constant ") + key.reaction + law);
+  keys.number("close_by_o2", rules().list(3).optional(),
+              "Rate constant by which O2 counts among what closes radical sites" + law + " Absent: as oxidation.");
+  keys.boolean("bounded", rules().byDefault("false"),
+               "Whether radical sites and C-H sites together are what there is: their ratio r becomes r/(1 + r).");
+  schema.add(keys.schema());
 }
 
-void addInception(DeckSchema& schema) {
-  DeckSchema part;
-  part.add(choiceKey(
-               "particles.inception_by", {"dimers", "monomers"},
-               "What makes a nucleus and condenses. dimers: two dimers of PAH in steady state (Blanquart and Pitsch "
-               "2009); monomers: two molecules of the one PAH, at the rate of all their collisions in the transition "
-               "regime.")
-               .byDefault("dimers"))
-      .add(quantityKey("particles.monomer_mass", units::mass,
-                       "Mass of a monomer as it collides; absent: that of its atoms.")
-               .optional()
-               .above(0)
-               .onlyWith("particles.inception_by", {"monomers"}))
-      .add(quantityKey("particles.monomer_diameter", units::length,
-                       "Diameter of a monomer as it collides; absent: of a sphere of the density of soot.")
-               .optional()
-               .above(0)
-               .onlyWith("particles.inception_by", {"monomers"}))
-      .add(booleanKey(
-               "particles.heavy_particles",
+DeckKeys<SootModelOptions> inceptionKeys() {
+  using Options = SootModelOptions;
+  DeckKeys<Options> keys("particles");
+  keys.choice(
+      "inception_by", &Options::inceptionBy, {{"dimers", InceptionBy::dimers}, {"monomers", InceptionBy::monomers}},
+      rules().byDefault("dimers"),
+      "What makes a nucleus and condenses. dimers: two dimers of PAH in steady state (Blanquart and Pitsch 2009); "
+      "monomers: two molecules of the one PAH, at the rate of all their collisions in the transition regime.");
+  keys.quantity("monomer_mass", units::mass, &Options::monomerMass,
+                rules().optional().above(0).onlyWith("particles.inception_by", {"monomers"}),
+                "Mass of a monomer as it collides; absent: that of its atoms.");
+  keys.quantity("monomer_diameter", units::length, &Options::monomerDiameter,
+                rules().optional().above(0).onlyWith("particles.inception_by", {"monomers"}),
+                "Diameter of a monomer as it collides; absent: of a sphere of the density of soot.");
+  keys.boolean("heavy_particles", &Options::heavyParticles, rules().byDefault("false"),
                "true: dimers or monomers meet particles of ensembles as if these were at rest, the limit of heavy "
-               "ones, as the program MOpS does; false: by the reduced mass.")
-               .byDefault("false"));
-  schema.add(part, ofPopulations());
+               "ones, as the program MOpS does; false: by the reduced mass.");
+  return keys;
 }
 
-void addPhysics(DeckSchema& schema) {
-  schema
-      .add(
-          stringKey("particles.pah",
-                    "PAH species that make dimers or nuclei: hydrocarbons of ten carbon atoms or more with no more "
-                    "hydrogen than carbon. leung and moss_brookes do not use them; with molecules it is the species of "
-                    "particles.molecules.molecule, where the deck does not say another.")
-              .list()
-              .byDefault("[A2]"))
-      .add(numberKey(
-               "particles.sticking",
-               "Probability that two molecules of a PAH stick when they collide, one number for each species of "
-               "particles.pah; absent: the table of Blanquart and Pitsch (2009), for other species its law 1.5e-11 (W "
-               "mol/g)^4, W the molar mass.")
-               .list()
-               .optional()
-               .atLeast(0)
-               .atMost(1))
-      .add(quantityKey("particles.site_density", units::perArea,
-                       "Number of C-H sites per surface of soot, where HACA growth and oxidation by O2 start: both are "
-                       "proportional to it.")
-               .byDefault("2.3e19 1/m^2")
-               .atLeast(0))
-      .add(numberKey(
-               "particles.alpha",
-               "Fraction alpha of the sites that are active, the same everywhere; absent, and without "
-               "particles.alpha_table: the function of temperature and size of Appel, Bockhorn and Frenklach (2000).")
-               .optional()
-               .atLeast(0)
-               .atMost(1))
-      .add(quantityKey("particles.alpha_table[].temperature", units::temperature,
-                       "Temperature of a point of the table of alpha, the fraction of active sites: rising, straight "
-                       "lines in between, constant outside.")
-               .above(0))
-      .add(numberKey("particles.alpha_table[].alpha", "Fraction of active sites at the temperature of this point.")
-               .atLeast(0)
-               .atMost(1))
-      .add(numberKey("particles.oh_efficiency",
-                     "Probability that an OH which hits the surface takes a carbon atom; absent: 0.13, with "
-                     "moss_brookes 0.04, with leung 0.")
-               .optional()
-               .atLeast(0)
-               .atMost(1))
-      .add(booleanKey("particles.inception", "Whether new particles form (inception); false: none do.")
-               .byDefault("true"))
-      .add(booleanKey("particles.condensation", "Whether PAH or their dimers condense on particles.").byDefault("true"))
-      .add(booleanKey("particles.growth",
-                      "Whether particles grow by acetylene at their surface (HACA, or the law of the model).")
-               .byDefault("true"))
-      .add(booleanKey("particles.oxidation", "Whether O2 and OH oxidise soot.").byDefault("true"));
-  addInception(schema);
-  addSurfaceRates(schema);
+DeckKeys<SootModelOptions> physicsKeys() {
+  using Options = SootModelOptions;
+  DeckKeys<Options> keys("particles");
+  keys.text("pah", rules().list().byDefault("[A2]"),
+            "PAH species that make dimers or nuclei: hydrocarbons of ten carbon atoms or more with no more hydrogen "
+            "than carbon. leung and moss_brookes do not use them; with molecules it is the species of "
+            "particles.molecules.molecule, where the deck does not say another.");
+  keys.number("sticking", rules().list().optional().atLeast(0).atMost(1),
+              "Probability that two molecules of a PAH stick when they collide, one number for each species of "
+              "particles.pah; absent: the table of Blanquart and Pitsch (2009), for other species its law 1.5e-11 (W "
+              "mol/g)^4, W the molar mass.");
+  keys.quantity("site_density", units::perArea, &Options::siteDensity, rules().byDefault("2.3e19 1/m^2").atLeast(0),
+                "Number of C-H sites per surface of soot, where HACA growth and oxidation by O2 start: both are "
+                "proportional to it.");
+  keys.number("alpha", &Options::alpha, rules().optional().atLeast(0).atMost(1),
+              "Fraction alpha of the sites that are active, the same everywhere; absent, and without "
+              "particles.alpha_table: the function of temperature and size of Appel, Bockhorn and Frenklach (2000).");
+  keys.quantity("alpha_table[].temperature", units::temperature, rules().above(0),
+                "Temperature of a point of the table of alpha, the fraction of active sites: rising, straight lines in "
+                "between, constant outside.");
+  keys.number("alpha_table[].alpha", rules().atLeast(0).atMost(1),
+              "Fraction of active sites at the temperature of this point.");
+  keys.number("oh_efficiency", &Options::ohEfficiency, rules().optional().atLeast(0).atMost(1),
+              "Probability that an OH which hits the surface takes a carbon atom; absent: 0.13, with moss_brookes "
+              "0.04, with leung 0.");
+  keys.boolean("inception", &Options::inception, rules().byDefault("true"),
+               "Whether new particles form (inception); false: none do.");
+  keys.boolean("condensation", &Options::condensation, rules().byDefault("true"),
+               "Whether PAH or their dimers condense on particles.");
+  keys.boolean("growth", &Options::surfaceGrowth, rules().byDefault("true"),
+               "Whether particles grow by acetylene at their surface (HACA, or the law of the model).");
+  keys.boolean("oxidation", &Options::oxidation, rules().byDefault("true"), "Whether O2 and OH oxidise soot.");
+  keys.schema().add(inceptionKeys().schema(), ofPopulations());
+  addSurfaceRates(keys.schema());
+  return keys;
 }
 
 // Two aromatic rings or more: ten carbon atoms, as naphthalene, and no more hydrogen than carbon.
@@ -149,9 +123,7 @@ const SootModelEntry& entryOf(const Deck& deck, const std::vector<SootModelEntry
 }  // namespace
 
 void addSootModelKeys(DeckSchema& schema, const std::vector<SootModelEntry>& models) {
-  DeckSchema physics;
-  addPhysics(physics);
-  schema.add(physics, ofSoot());
+  schema.add(physicsKeys().schema(), ofSoot());
   for (const SootModelEntry& model : models)
     if (model.addKeys != nullptr) model.addKeys(schema);
 }
@@ -230,22 +202,12 @@ SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechani
   options.hydrogenWeight = weights.hydrogen;
   options.pah = readPahSpecies(deck, mechanism);
   options.sootDensity = deck.optionalQuantity("particles.density").value_or(options.sootDensity);
-  options.siteDensity = deck.quantity("particles.site_density");
-  options.ohEfficiency = deck.optionalNumber("particles.oh_efficiency").value_or(options.ohEfficiency);
+  physicsKeys().read(deck, options, "particles");
+  inceptionKeys().read(deck, options, "particles");
   options.vanDerWaals = deck.number("particles.van_der_waals");
-  options.inceptionBy =
-      deck.choice("particles.inception_by") == "monomers" ? InceptionBy::monomers : InceptionBy::dimers;
-  options.monomerMass = deck.optionalQuantity("particles.monomer_mass").value_or(0);
-  options.monomerDiameter = deck.optionalQuantity("particles.monomer_diameter").value_or(0);
-  options.heavyParticles = deck.boolean("particles.heavy_particles");
   options.slip = deck.choice("particles.slip") == "air" ? SlipLaw::air : SlipLaw::davies;
   readSurfaceRates(deck, options.surface);
-  options.inception = deck.boolean("particles.inception");
-  options.condensation = deck.boolean("particles.condensation");
-  options.surfaceGrowth = deck.boolean("particles.growth");
-  options.oxidation = deck.boolean("particles.oxidation");
   options.coagulation = deck.boolean("particles.coagulation");
-  options.alpha = deck.optionalNumber("particles.alpha");
   for (std::size_t i = 0; i < deck.size("particles.alpha_table"); ++i) {
     const std::string item = fmt::format("particles.alpha_table[{}].", i);
     options.alphaTable.push_back({deck.quantity(item + "temperature"), deck.number(item + "alpha")});

@@ -9,6 +9,7 @@
 #include "chemistry/thermo/thermo.hpp"
 #include "chemistry/transport/transport.hpp"
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 
@@ -58,15 +59,14 @@ double readTemperature(const Deck& deck, const std::string& key, const Mechanism
 }
 
 void addTemperatureProfileKeys(DeckSchema& schema, const std::string& fileDoc) {
-  schema
-      .add(
-          temperatureKey("temperature_profile.temperature", "Temperatures of the gas at the points.").list().optional())
-      .add(stringKey("temperature_profile.file", "CSV file with the points, in place of lists, of two columns, " +
-                                                     fileDoc +
-                                                     " and temperature in K; a first line of names may say other "
-                                                     "units, 'z [cm],T [degC]', and lines that begin with # are "
-                                                     "skipped. Relative to the deck.")
-               .optional());
+  SectionKeys keys("temperature_profile");
+  keys.quantity("temperature", units::temperature, temperatureRules().list().optional(),
+                "Temperatures of the gas at the points.");
+  keys.text("file", rules().optional(),
+            "CSV file with the points, in place of lists, of two columns, " + fileDoc +
+                " and temperature in K; a first line of names may say other units, 'z [cm],T [degC]', and lines that "
+                "begin with # are skipped. Relative to the deck.");
+  schema.add(keys.schema());
 }
 
 namespace {

@@ -8,19 +8,12 @@
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/transport/pure_gas.hpp"
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 namespace {
 
 using Diffusion = TransportModel::Diffusion;
-
-CollisionIntegrals readCollisionIntegrals(const Deck& deck, const Mechanism& mechanism) {
-  const auto integrals = deck.choice("transport.collision_integrals") == "wang_fits"
-                             ? CollisionIntegrals::WangFits
-                             : CollisionIntegrals::MonchickMason;
-  deck.at("mechanism", [&] { static_cast<void>(PureGas(mechanism, integrals)); });
-  return integrals;
-}
 
 std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanism) {
   const bool constant = deck.choice("transport.model") == "constant_lewis";
@@ -37,67 +30,60 @@ std::vector<double> readLewisNumbers(const Deck& deck, const Mechanism& mechanis
   });
 }
 
-std::optional<SutherlandLaw> readSutherland(const Deck& deck) {
-  if (!deck.has("transport.sutherland")) return std::nullopt;
-  return SutherlandLaw{
-      deck.quantity("transport.sutherland.viscosity"), deck.quantity("transport.sutherland.temperature"),
-      deck.quantity("transport.sutherland.constant"), deck.number("transport.sutherland.prandtl_number")};
+DeckKeys<TransportModel> transportKeys() {
+  DeckKeys<TransportModel> keys("transport");
+  keys.choice("model", &TransportModel::diffusion,
+              {{"mixture_averaged", Diffusion::MixtureAveraged},
+               {"multicomponent", Diffusion::Multicomponent},
+               {"unity_lewis", Diffusion::UnityLewis},
+               {"constant_lewis", Diffusion::ConstantLewis}},
+              rules().byDefault("mixture_averaged"),
+              "How species diffuse: by mixture-averaged coefficients, by the full multicomponent ones (and its "
+              "conductivity), as fast as heat, or as fast as heat over each species' Lewis number.");
+  keys.boolean("soret", &TransportModel::soret, rules().byDefault("false"),
+               "Whether species diffuse along gradients of temperature too (thermal diffusion, Soret effect).");
+  keys.text("lewis_numbers", rules().optional().onlyWith("transport.model", {"constant_lewis"}),
+            "Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.");
+  keys.choice("collision_integrals", &TransportModel::integrals,
+              {{"monchick_mason", CollisionIntegrals::MonchickMason}, {"wang_fits", CollisionIntegrals::WangFits}},
+              rules().byDefault("monchick_mason").formerly("thesis_fits", "wang_fits"),
+              "Collision integrals of viscosity and diffusion: monchick_mason: the tables of Monchick and Mason "
+              "(1961); wang_fits: the fits of Wang (2025, eqs. 6-36 and 6-37), within 2.5 % of them.");
+  return keys;
 }
 
-Diffusion diffusionOf(const std::string& word) {
-  if (word == "multicomponent") return Diffusion::Multicomponent;
-  if (word == "unity_lewis") return Diffusion::UnityLewis;
-  if (word == "constant_lewis") return Diffusion::ConstantLewis;
-  return Diffusion::MixtureAveraged;
+DeckKeys<SutherlandLaw> sutherlandKeys() {
+  DeckKeys<SutherlandLaw> keys("transport.sutherland");
+  keys.section(Presence::optional,
+               "Viscosity of the whole gas by Sutherland's law, viscosity * (T/temperature)^1.5 * (temperature + "
+               "constant) / (T + constant), and its conductivity by a Prandtl number, instead of kinetic theory.",
+               {{"transport.model", {"unity_lewis", "constant_lewis"}}});
+  keys.quantity("viscosity", units::viscosity, &SutherlandLaw::viscosity, rules().required().above(0),
+                "Viscosity at 'temperature'.");
+  keys.quantity("temperature", units::temperature, &SutherlandLaw::temperature, rules().required().above(0),
+                "Temperature that has 'viscosity'.");
+  keys.quantity("constant", units::temperature, &SutherlandLaw::constant, rules().required().above(0),
+                "Sutherland's constant, 110.5 K for air.");
+  keys.number("prandtl_number", &SutherlandLaw::prandtl, rules().required().above(0),
+              "Viscosity times heat capacity per mass over conductivity, 0.71 for air.");
+  return keys;
 }
 
 }  // namespace
 
 void addTransportKeys(DeckSchema& schema) {
-  schema
-      .add(choiceKey("transport.model", {"mixture_averaged", "multicomponent", "unity_lewis", "constant_lewis"},
-                     "How species diffuse: by mixture-averaged coefficients, by the full multicomponent ones (and its "
-                     "conductivity), as fast as heat, or as fast as heat over each species' Lewis number.")
-               .byDefault("mixture_averaged"))
-      .add(booleanKey("transport.soret",
-                      "Whether species diffuse along gradients of temperature too (thermal diffusion, Soret effect).")
-               .byDefault("false"))
-      .add(stringKey("transport.lewis_numbers",
-                     "Lewis numbers, 'H2: 0.3, CH4: 0.97'; species that are not named have 1.")
-               .optional()
-               .onlyWith("transport.model", {"constant_lewis"}))
-      .add(choiceKey("transport.collision_integrals", {"monchick_mason", "wang_fits"},
-                     "Collision integrals of viscosity and diffusion: monchick_mason: the tables of Monchick and Mason "
-                     "(1961); wang_fits: the fits of Wang (2025, eqs. 6-36 and 6-37), within 2.5 % of them.")
-               .byDefault("monchick_mason")
-               .formerly("thesis_fits", "wang_fits"))
-      .section(
-          "transport.sutherland", Presence::optional,
-          "Viscosity of the whole gas by Sutherland's law, viscosity * (T/temperature)^1.5 * (temperature + constant) "
-          "/ (T + constant), and its conductivity by a Prandtl number, instead of kinetic theory.",
-          {{"transport.model", {"unity_lewis", "constant_lewis"}}})
-      .add(quantityKey("transport.sutherland.viscosity", units::viscosity, "Viscosity at 'temperature'.").above(0))
-      .add(quantityKey("transport.sutherland.temperature", units::temperature, "Temperature that has 'viscosity'.")
-               .above(0))
-      .add(quantityKey("transport.sutherland.constant", units::temperature, "Sutherland's constant, 110.5 K for air.")
-               .above(0))
-      .add(numberKey("transport.sutherland.prandtl_number",
-                     "Viscosity times heat capacity per mass over conductivity, 0.71 for air.")
-               .above(0));
+  schema.add(transportKeys().schema()).add(sutherlandKeys().schema());
 }
 
 TransportModel readTransport(const Deck& deck, const Mechanism& mechanism) {
-  TransportModel transport;
-  transport.integrals = readCollisionIntegrals(deck, mechanism);
+  TransportModel transport = transportKeys().read(deck);
+  deck.at("mechanism", [&] { static_cast<void>(PureGas(mechanism, transport.integrals)); });
   transport.lewisNumbers = readLewisNumbers(deck, mechanism);
-  transport.soret = deck.boolean("transport.soret");
-  const std::string model = deck.choice("transport.model");
-  transport.diffusion = diffusionOf(model);
-  transport.sutherland = readSutherland(deck);
+  if (deck.has("transport.sutherland")) transport.sutherland = sutherlandKeys().read(deck);
   if (transport.soret && transport.hasLewisNumbers())
     throw deck.error("transport.soret", fmt::format("the transport model {} has no thermal diffusion; set soret to "
                                                     "false, or choose mixture_averaged or multicomponent",
-                                                    model));
+                                                    deck.choice("transport.model")));
   return transport;
 }
 

@@ -11,6 +11,7 @@
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/sintering_deck.hpp"
 #include "app/deck/soot_deck.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -18,95 +19,79 @@ namespace {
 const std::string ownTable = "particles.table.";
 
 void addReactions(DeckSchema& schema) {
-  schema
-      .add(quantityKey("particles.growth_rate", units::volume / units::amount / units::time,
-                       "Rate constant of the surface reaction for each site; silica: 1e13 cm^3/mol/s.")
-               .optional()
-               .atLeast(0)
-               .onlyWith(ofOtherMaterials()))
-      .add(quantityKey("particles.growth_energy", units::molarEnergy, "Activation energy of the surface reaction.")
-               .byDefault("0 J/mol")
-               .atLeast(0)
-               .onlyWith(ofOtherMaterials()))
-      .add(booleanKey("particles.intra_particle",
-                      "Whether pairs of sites react within particles as fast as molecules react with sites; silica "
-                      "then tends to SiO2 (Shekar et al. 2011, eq. 59, bounded at zero).")
-               .byDefault("true")
-               .onlyWith(ofOtherMaterials()))
-      .add(choiceKey("particles.burnt_primaries", {"break", "join"},
-                     "What becomes of a particle of which a primary has burnt away. break: the parts that it held "
-                     "together go apart (as Neoh, Howard, Sarofim 1985 saw); join: they touch its closest neighbour.")
-               .byDefault("break")
-               .onlyWith(ofTrees())
-               .onlyWith(ofSoot()));
+  SectionKeys keys("particles");
+  keys.quantity("growth_rate", units::volume / units::amount / units::time,
+                rules().optional().atLeast(0).onlyWith(ofOtherMaterials()),
+                "Rate constant of the surface reaction for each site; silica: 1e13 cm^3/mol/s.");
+  keys.quantity("growth_energy", units::molarEnergy,
+                rules().byDefault("0 J/mol").atLeast(0).onlyWith(ofOtherMaterials()),
+                "Activation energy of the surface reaction.");
+  keys.boolean("intra_particle", rules().byDefault("true").onlyWith(ofOtherMaterials()),
+               "Whether pairs of sites react within particles as fast as molecules react with sites; silica then tends "
+               "to SiO2 (Shekar et al. 2011, eq. 59, bounded at zero).");
+  keys.choice("burnt_primaries", {"break", "join"}, rules().byDefault("break").onlyWith(ofTrees()).onlyWith(ofSoot()),
+              "What becomes of a particle of which a primary has burnt away. break: the parts that it held together go "
+              "apart (as Neoh, Howard, Sarofim 1985 saw); join: they touch its closest neighbour.");
   auto [breaks, factor] =
       fragmentationKeys("particles",
                         "Whether oxidation breaks aggregates at their necks, also where no primary has "
                         "burnt away: into the two parts of a neck, which is drawn.");
-  for (DeckKey* key : {&breaks, &factor}) schema.add(key->onlyWith(ofTrees()).onlyWith(ofSoot()));
+  for (DeckKey* key : {&breaks, &factor}) keys.add(key->onlyWith(ofTrees()).onlyWith(ofSoot()));
+  schema.add(keys.schema());
 }
 
-void addTable(DeckSchema& schema) {
-  schema
-      .section("particles.table", Presence::optional,
+DeckKeys<SiteReactions> tableKeys() {
+  DeckKeys<SiteReactions> keys("particles.table");
+  keys.section(Presence::optional,
                "A material of the deck's own: up to three components, and the reactions of one precursor in the gas, "
                "as those of silica. Atoms have to be kept.",
-               {{materialKey, {"table"}}})
-      .add(stringKey(ownTable + "name", "Name of the material, with which the columns of results begin."))
-      .add(stringKey(ownTable + "components[].name", "Name of the component."))
-      .add(quantityKey(ownTable + "components[].weight", units::molarMass, "Mass of a mole of its units.").above(0))
-      .add(stringKey(ownTable + "components[].elements", "Elements that a unit is made of.").list())
-      .add(numberKey(ownTable + "components[].atoms", "Atoms in a unit, a number for each element.").list().above(0))
-      .add(stringKey(ownTable + "precursor", "Species of the gas that particles are made of and grow by."))
-      .add(stringKey(ownTable + "product", "Species that reactions give back to the gas."))
-      .add(quantityKey(ownTable + "molecule_mass", units::mass, "Mass of a molecule of the precursor as it collides.")
-               .above(0))
-      .add(quantityKey(ownTable + "molecule_diameter", units::length,
-                       "Diameter of a molecule of the precursor as it collides.")
-               .above(0))
-      .add(numberKey(ownTable + "nucleus", "Units of each component in a new particle.").list().atLeast(0))
-      .add(numberKey(ownTable + "nucleus_products",
-                     "Molecules of the product that two molecules of the precursor give "
-                     "back as they become a new particle.")
-               .byDefault("1")
-               .atLeast(0))
-      .add(stringKey(ownTable + "site", "Component whose units are the sites that react."))
-      .add(stringKey(ownTable + "bridge",
-                     "Component of which two sites become one unit, with a molecule of the product, as a particle "
-                     "sinters or reacts within."))
-      .add(numberKey(ownTable + "growth", "Units of each component that a particle gains as a molecule reacts with it.")
-               .list())
-      .add(numberKey(ownTable + "growth_products", "Molecules of the product that this gives back.")
-               .byDefault("1")
-               .atLeast(0))
-      .add(numberKey(ownTable + "growth_power",
-                     "Power n of the temperature in the rate constant growth_rate T^n "
-                     "exp(-growth_energy/(R T)).")
-               .byDefault("0"));
+               {{materialKey, {"table"}}});
+  keys.text("name", rules(), "Name of the material, with which the columns of results begin.");
+  keys.text("components[].name", rules(), "Name of the component.");
+  keys.quantity("components[].weight", units::molarMass, rules().above(0), "Mass of a mole of its units.");
+  keys.text("components[].elements", rules().list(), "Elements that a unit is made of.");
+  keys.number("components[].atoms", rules().list().above(0), "Atoms in a unit, a number for each element.");
+  keys.text("precursor", &SiteReactions::precursor, rules().required(),
+            "Species of the gas that particles are made of and grow by.");
+  keys.text("product", &SiteReactions::product, rules().required(), "Species that reactions give back to the gas.");
+  keys.quantity("molecule_mass", units::mass, &SiteReactions::moleculeMass, rules().required().above(0),
+                "Mass of a molecule of the precursor as it collides.");
+  keys.quantity("molecule_diameter", units::length, &SiteReactions::moleculeDiameter, rules().required().above(0),
+                "Diameter of a molecule of the precursor as it collides.");
+  keys.number("nucleus", rules().list().atLeast(0), "Units of each component in a new particle.");
+  keys.number("nucleus_products", &SiteReactions::nucleusProducts, rules().byDefault("1").atLeast(0),
+              "Molecules of the product that two molecules of the precursor give back as they become a new particle.");
+  keys.text("site", rules(), "Component whose units are the sites that react.");
+  keys.text("bridge", rules(),
+            "Component of which two sites become one unit, with a molecule of the product, as a particle sinters or "
+            "reacts within.");
+  keys.number("growth", rules().list(), "Units of each component that a particle gains as a molecule reacts with it.");
+  keys.number("growth_products", &SiteReactions::growthProducts, rules().byDefault("1").atLeast(0),
+              "Molecules of the product that this gives back.");
+  keys.number("growth_power", &SiteReactions::power, rules().byDefault("0"),
+              "Power n of the temperature in the rate constant growth_rate T^n exp(-growth_energy/(R T)).");
+  return keys;
 }
 
-void addSintering(DeckSchema& schema) {
-  const std::string s = "particles.sintering.";
-  schema.section("particles.sintering", Presence::defaulted, "How primaries that touch become one.",
-                 {ofEqualWeights()});
-  addSinteringLawKeys(schema, "particles.sintering");
-  schema
-      .add(choiceKey(s + "size", {"smaller", "volume_to_surface"},
-                     "The size d in the law: that of the smaller of two neighbours (Shekar et al. 2011), or 6 V/S of "
-                     "what sinters.")
-               .byDefault("smaller")
-               .onlyWith(ofPrimaries()))
-      .add(choiceKey(s + "between", {"neighbours", "parts"},
-                     "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate "
-                     "that a collision joined, with the whole volume and surface of both, as the program MOpS does.")
-               .byDefault("neighbours")
-               .onlyWith(ofPrimaries()))
-      .add(
-          choiceKey(s + "inner_parts", {"sphere", "nothing"},
-                    "What the surface of parts within an aggregate goes towards where parts sinter: that of the sphere "
-                    "of their volume; or nothing, as the program MOpS computes it.")
-              .byDefault("sphere")
-              .onlyWith(ofPrimaries()));
+DeckKeys<SinteringLaw> sinteringKeys() {
+  DeckKeys<SinteringLaw> keys("particles.sintering");
+  keys.section(Presence::defaulted, "How primaries that touch become one.", {ofEqualWeights()});
+  addSinteringLawKeys(keys.schema(), "particles.sintering");
+  keys.choice(
+      "size", &SinteringLaw::size,
+      {{"smaller", SinteringLaw::Size::smaller}, {"volume_to_surface", SinteringLaw::Size::volumeToSurface}},
+      rules().byDefault("smaller").onlyWith(ofPrimaries()),
+      "The size d in the law: that of the smaller of two neighbours (Shekar et al. 2011), or 6 V/S of what sinters.");
+  keys.choice("between", &SinteringLaw::between,
+              {{"neighbours", SinteringLaw::Between::neighbours}, {"parts", SinteringLaw::Between::parts}},
+              rules().byDefault("neighbours").onlyWith(ofPrimaries()),
+              "What sinters: pairs of neighbours (Shekar et al. 2011, eq. 40); or the two parts of an aggregate that a "
+              "collision joined, with the whole volume and surface of both, as the program MOpS does.");
+  keys.choice("inner_parts", &SinteringLaw::innerSpheres, {{"sphere", true}, {"nothing", false}},
+              rules().byDefault("sphere").onlyWith(ofPrimaries()),
+              "What the surface of parts within an aggregate goes towards where parts sinter: that of the sphere of "
+              "their volume; or nothing, as the program MOpS computes it.");
+  return keys;
 }
 
 TreeMaterial readSoot(const Deck& deck, const Mechanism& mechanism) {
@@ -156,18 +141,11 @@ TreeMaterial readTable(const Deck& deck) {
     for (std::size_t e = 0; e < elements.size(); ++e) component.elements.emplace_back(elements[e], atoms[e]);
     m.components.push_back(std::move(component));
   }
-  SiteReactions r;
-  r.precursor = deck.string(ownTable + "precursor");
-  r.product = deck.string(ownTable + "product");
-  r.moleculeMass = deck.quantity(ownTable + "molecule_mass");
-  r.moleculeDiameter = deck.quantity(ownTable + "molecule_diameter");
+  SiteReactions r = tableKeys().read(deck);
   r.nucleus = readUnits(deck, ownTable + "nucleus", count);
-  r.nucleusProducts = deck.number(ownTable + "nucleus_products");
   r.site = readComponent(deck, ownTable + "site", m.components);
   r.bridge = readComponent(deck, ownTable + "bridge", m.components);
   r.growth = readUnits(deck, ownTable + "growth", count);
-  r.growthProducts = deck.number(ownTable + "growth_products");
-  r.power = deck.number(ownTable + "growth_power");
   m.reactions = r;
   return m;
 }
@@ -184,18 +162,15 @@ void addTreeMaterialKeys(DeckSchema& schema) {
           .atMost(2)
           .onlyWith(ofTrees()));
   addReactions(schema);
-  addTable(schema);
-  addSintering(schema);
+  schema.add(tableKeys().schema());
+  schema.add(sinteringKeys().schema());
 }
 
 SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
   const std::string s = "particles.sintering.";
   law = readSinteringLaw(deck, "particles.sintering", law);
+  sinteringKeys().read(deck, law, "particles.sintering");
   if (deck.has(s + "size")) {
-    law.size = deck.choice(s + "size") == "smaller" ? SinteringLaw::Size::smaller : SinteringLaw::Size::volumeToSurface;
-    law.between =
-        deck.choice(s + "between") == "neighbours" ? SinteringLaw::Between::neighbours : SinteringLaw::Between::parts;
-    law.innerSpheres = deck.choice(s + "inner_parts") == "sphere";
     if (!law.innerSpheres && law.between == SinteringLaw::Between::neighbours)
       throw deck.error(s + "inner_parts", "only where 'between' is 'parts' do parts within an aggregate sinter");
     if (law.between == SinteringLaw::Between::parts && law.size == SinteringLaw::Size::smaller)

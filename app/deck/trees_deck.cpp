@@ -13,6 +13,7 @@
 #include "app/deck/tree_material_deck.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 #include "io/request_limits.hpp"
 #include "particles/trees/tree_population.hpp"
 
@@ -20,31 +21,23 @@ namespace lampblack::app {
 namespace {
 
 void addProcesses(DeckSchema& schema) {
-  schema
-      .add(numberKey("particles.sintering.tolerance",
-                     "Largest relative change of a contact's surface for which a tree may wait before it is sintered.")
-               .byDefault("1e-3")
-               .atLeast(0)
-               .atMost(0.1))
-      .add(choiceKey("particles.kernel", {"transition", "free_molecular", "continuum"},
-                     "Collision rates: harmonic mean of the two limits, or one of them.")
-               .byDefault("transition")
-               .onlyWith(ofEqualWeights()))
-      .add(choiceKey(
-               "particles.inception_kernel", {"coagulation", "free_molecular"},
-               "Collision rate of two molecules that become a particle: coagulation, by the kernel of particles with "
-               "their enhancement; free_molecular, without enhancement (Shekar et al. 2011, eq. 25).")
-               .byDefault("coagulation")
-               .onlyWith(ofOtherMaterials()))
-      .add(choiceKey(
-               "particles.collision_size", {"primaries", "volume_to_surface", "shadow"},
-               "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter "
-               "of primaries (Shekar et al. 2011, eqs. 17, 18), or 6 V/S of the particle, by which a particle that has "
-               "become a sphere has its diameter. shadow, with 'geometry: spheres': of the sphere with the mean shadow "
-               "of the particle along three lines at right angles.")
-               .byDefault("primaries")
-               .byDefault("volume_to_surface", {ofSoot()})
-               .onlyWith(ofTrees()));
+  SectionKeys keys("particles");
+  keys.number("sintering.tolerance", rules().byDefault("1e-3").atLeast(0).atMost(0.1),
+              "Largest relative change of a contact's surface for which a tree may wait before it is sintered.");
+  keys.choice("kernel", {"transition", "free_molecular", "continuum"},
+              rules().byDefault("transition").onlyWith(ofEqualWeights()),
+              "Collision rates: harmonic mean of the two limits, or one of them.");
+  keys.choice("inception_kernel", {"coagulation", "free_molecular"},
+              rules().byDefault("coagulation").onlyWith(ofOtherMaterials()),
+              "Collision rate of two molecules that become a particle: coagulation, by the kernel of particles with "
+              "their enhancement; free_molecular, without enhancement (Shekar et al. 2011, eq. 25).");
+  keys.choice("collision_size", {"primaries", "volume_to_surface", "shadow"},
+              rules().byDefault("primaries").byDefault("volume_to_surface", {ofSoot()}).onlyWith(ofTrees()),
+              "Length that a power of the number of primaries multiplies to a diameter of collision: mean diameter of "
+              "primaries (Shekar et al. 2011, eqs. 17, 18), or 6 V/S of the particle, by which a particle that has "
+              "become a sphere has its diameter. shadow, with 'geometry: spheres': of the sphere with the mean shadow "
+              "of the particle along three lines at right angles.");
+  schema.add(keys.schema());
 }
 
 void addGeometry(DeckSchema& schema) {
@@ -69,20 +62,14 @@ DeckKey tablesAt() {
 }
 
 void addClasses(DeckSchema& schema) {
-  DeckSchema part;
-  part.add(quantityKey("particles.classes.collision_diameter", units::length,
-                       "Diameters of collision between which particles are classes with averages of their own: "
-                       "classes_collision_diameter.csv, such as [50 nm, 200 nm] for three classes.")
-               .list()
-               .optional()
-               .above(0))
-      .add(numberKey("particles.classes.primaries",
-                     "Numbers of primaries between which particles are classes with averages of their own: "
-                     "classes_primaries.csv; a particle of as many belongs to the class above.")
-               .list()
-               .optional()
-               .above(0));
-  schema.add(part, ofEqualWeights());
+  SectionKeys part("particles.classes");
+  part.quantity("collision_diameter", units::length, rules().list().optional().above(0),
+                "Diameters of collision between which particles are classes with averages of their own: "
+                "classes_collision_diameter.csv, such as [50 nm, 200 nm] for three classes.");
+  part.number("primaries", rules().list().optional().above(0),
+              "Numbers of primaries between which particles are classes with averages of their own: "
+              "classes_primaries.csv; a particle of as many belongs to the class above.");
+  schema.add(part.schema(), ofEqualWeights());
 }
 
 // Ends of classes, rising.
@@ -162,22 +149,18 @@ void addTreeRunKeys(DeckSchema& schema) {
 }
 
 void addTreeReactorKeys(DeckSchema& schema) {
-  schema
-      .add(choiceKey("particles.viscosity", {"air", "transport"},
-                     "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; "
-                     "transport: from these data.")
-               .byDefault("transport")
-               .byDefault("air", {ofOtherMaterials()})
-               .onlyWith(ofEqualWeights()))
-      .add(tablesAt().onlyWith("reactor.type", {"constant_pressure", "constant_volume", "stirred"}))
-      .add(quantityKey("particles.tables_at_place", units::length, "The same by places along a plug flow.")
-               .list()
-               .optional()
-               .atLeast(0)
-               .onlyWith("reactor.type", {"plug_flow"})
-               .onlyWith(ofPrimaries()));
-  addTreeRunKeys(schema);
-  addClasses(schema);
+  SectionKeys keys("particles");
+  keys.choice("viscosity", {"air", "transport"},
+              rules().byDefault("transport").byDefault("air", {ofOtherMaterials()}).onlyWith(ofEqualWeights()),
+              "Viscosity of the gas. air: Sutherland's law of air, for mechanisms without transport data; transport: "
+              "from these data.");
+  keys.add(tablesAt().onlyWith("reactor.type", {"constant_pressure", "constant_volume", "stirred"}));
+  keys.quantity("tables_at_place", units::length,
+                rules().list().optional().atLeast(0).onlyWith("reactor.type", {"plug_flow"}).onlyWith(ofPrimaries()),
+                "The same by places along a plug flow.");
+  addTreeRunKeys(keys.schema());
+  addClasses(keys.schema());
+  schema.add(keys.schema());
 }
 
 void addTreePrescribedGasKeys(DeckSchema& schema) {

@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "app/problems/aggregates/aggregates_output.hpp"
-#include "app/problems/aggregates/aggregates_repeat.hpp"
 #include "core/errors.hpp"
+#include "particles/aggregates/aggregates_repeat.hpp"
 #include "particles/trees/tree_material.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
@@ -136,8 +136,9 @@ TEST(AggregatesCase, RowsOfARepeatAndTheirMeans) {
   EXPECT_DOUBLE_EQ(rows[2 * width + at("fitted")], 60);  // of all three sizes
   EXPECT_NEAR(rows[2 * width + at("fractal_dimension")], 2, 0.5);
   EXPECT_GE(rows[width + at("lines")], 1);
-  const std::vector<double> history = aggregateHistory(made, rows);
-  const std::size_t columns = aggregateColumns().size(), first = 2 + 4 * at("gyration");
+  const Table table = aggregateHistory(made, rows);
+  const std::vector<double>& history = table.rows;
+  const std::size_t columns = table.columns.size(), first = 2 + 4 * at("gyration");
   ASSERT_EQ(history.size(), made.rows() * columns);
   const double a = rows[2 * width + at("gyration")], b = rows[(made.rows() + 2) * width + at("gyration")];
   EXPECT_NE(a, b);

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "app/problems/population/population_statistics.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/population/comparison/comparison.hpp"
 #include "particles/population/exact_solutions/initial_distribution.hpp"
 #include "tests/scratch.hpp"
 #include "tests/source_folder.hpp"

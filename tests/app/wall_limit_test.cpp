@@ -1,5 +1,5 @@
 // When a run stops for its wall time.
-#include "app/problems/flow/wall_limit.hpp"
+#include "core/wall_limit.hpp"
 
 #include <gtest/gtest.h>
 

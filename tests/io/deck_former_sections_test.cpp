@@ -47,6 +47,13 @@ TEST(FormerSections, KeysAreReadWhereTheyStandNow) {
   EXPECT_THAT(deckOf(schema(), deck.resolved()).notes(), IsEmpty());
 }
 
+TEST(FormerSections, AreThoseOfASchemaThatIsAdded) {
+  DeckSchema whole;
+  whole.add(booleanKey("other", "Something else.").byDefault("true"));
+  EXPECT_EQ(whole.add(schema()).formerSections().table.size(), 4U);
+  EXPECT_EQ(whole.add(DeckSchema()).formerSections().table.size(), 4U);
+}
+
 TEST(FormerSections, AnEmptyOneIsThere) {
   EXPECT_TRUE(deckOf(schema(), "ash:\n").has("dust.count"));
   EXPECT_FALSE(deckOf(schema(), "wall: {kind: brick}\n").has("dust.count"));

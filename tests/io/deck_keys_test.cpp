@@ -63,7 +63,7 @@ BoundOptions bound(const std::string& part) {
 
 const DeckKey& boundKey(const DeckSchema& schema, const std::string& name) {
   for (const DeckKey& key : schema.keys())
-    if (key.path == "parts.*." + name) return key;
+    if (key.path == "parts.*." + name || key.path == name) return key;
   throw std::logic_error("no key " + name);
 }
 
@@ -127,6 +127,26 @@ TEST(DeckKeys, RangesAndConditionsHold) {
   EXPECT_THROW((void)bound("needed: 1, count: 0"), InputError);
   EXPECT_THROW((void)bound("needed: 1, time: 2 ms"), InputError);  // of the kind a alone
   EXPECT_THROW((void)bound("share: 0.5"), InputError);
+}
+
+// A key without a member stands in the schema as its rules say, and its value is not looked at.
+TEST(DeckKeys, KeysWithoutAMemberAreReadByHand) {
+  DeckKeys<BoundLimits> keys("limits");
+  keys.number("largest", &BoundLimits::largest, rules(), "Largest.");
+  keys.quantity("width", units::length, rules().above(0), "Width.");
+  keys.text("names", rules().list().byDefault("[a, b]"), "Names.");
+  keys.choice("side", {"left", "right"}, rules().optional(), "Side.");
+  keys.add(booleanKey("limits.on", "On.").byDefault("true"));
+  const DeckSchema schema = keys.schema();
+  EXPECT_EQ(boundKey(schema, "limits.width").presence, Presence::required);
+  EXPECT_EQ(boundKey(schema, "limits.width").dimension, units::length);
+  EXPECT_THAT(boundKey(schema, "limits.side").choices, ElementsAre("left", "right"));
+  const Deck deck = Deck::parse("limits: {largest: 5, width: 2 cm}", "deck.yaml", {}, schema);
+  EXPECT_EQ(keys.read(deck).largest, 5.0);
+  EXPECT_EQ(deck.quantity("limits.width"), 0.02);
+  EXPECT_THAT(deck.strings("limits.names"), ElementsAre("a", "b"));
+  EXPECT_TRUE(deck.boolean("limits.on"));
+  EXPECT_THROW((void)Deck::parse("limits: {largest: 5}", "deck.yaml", {}, schema), InputError);
 }
 
 TEST(DeckKeys, AChoiceThatIsNotTheDefaultIsAMistake) {

@@ -16,10 +16,10 @@ DeckKeys<SectionalSootOptions> sectionalKeys() {
   keys.number("factor", &Options::factor, rules().above(1),
               "Ratio of the masses of neighbouring sections: smaller resolves the distribution better and needs "
               "more sections.");
-  keys.other("overflow", KeyType::number, rules().byDefault("1e-4").above(0).atMost(1),
-             "Largest volume fraction of soot in the last section, which cannot grow, over the largest of all: "
-             "more is a failure, of a steady state that is sought once it has been found; 1: it is only "
-             "counted (soot_in_last_section).");
+  keys.number("overflow", rules().byDefault("1e-4").above(0).atMost(1),
+              "Largest volume fraction of soot in the last section, which cannot grow, over the largest of all: "
+              "more is a failure, of a steady state that is sought once it has been found; 1: it is only "
+              "counted (soot_in_last_section).");
   keys.number("nucleus_carbon", &Options::nucleusCarbon, rules().optional().above(0),
               "Number of carbon atoms of a particle in the first section; absent: that of the smallest nucleus "
               "which the PAH can make.");
@@ -52,8 +52,8 @@ DeckKeys<SectionalSootOptions> sectionalKeys() {
               "particles smaller than the mean free path.");
   const auto [breaking, factor] =
       fragmentationKeys("particles.sectional", "Whether oxidation breaks aggregates into halves.");
-  keys.other(breaking);
-  keys.other(factor);
+  keys.add(breaking);
+  keys.add(factor);
   keys.boolean("carbonisation", &Options::carbonisation, rules(),
                "true: soot keeps the hydrogen of PAH and loses it slowly (carbonisation); false: the hydrogen "
                "leaves as H2 when PAH become soot.");

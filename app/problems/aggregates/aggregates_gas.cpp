@@ -7,17 +7,13 @@
 #include <limits>
 #include <string>
 
-#include "core/constants.hpp"
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
-#include "coupling/reactor_particles.hpp"
 #include "io/csv.hpp"
 #include "io/table_column.hpp"
 
 namespace lampblack::app {
 namespace {
-
-constexpr double airWeight = 0.02897;  // kg/mol
 
 void readColumns(const TextTable& table, AggregatesGas& gas) {
   struct Known {
@@ -61,29 +57,6 @@ void readColumns(const TextTable& table, AggregatesGas& gas) {
 }
 
 }  // namespace
-
-double AggregatesGas::valueAt(const std::vector<double>& values, double when) const {
-  const auto k = static_cast<std::size_t>(std::ranges::upper_bound(time, when) - time.begin());
-  if (k == 0) return values.front();
-  if (k == time.size()) return values.back();
-  const double part = (when - time[k - 1]) / (time[k] - time[k - 1]);
-  return values[k - 1] + part * (values[k] - values[k - 1]);
-}
-
-double AggregatesGas::nextChange(double when) const {
-  const auto next = std::ranges::upper_bound(time, when);
-  return next == time.end() ? std::numeric_limits<double>::infinity() : *next;
-}
-
-CarrierGas AggregatesGas::at(double when) const {
-  CarrierGas gas;
-  gas.temperature = valueAt(temperature, when);
-  gas.pressure = valueAt(pressure, when);
-  gas.meanMolecularWeight = airWeight;
-  gas.density = gas.pressure * airWeight / (constants::gasConstant * gas.temperature);
-  gas.viscosity = viscosityOfAir(gas.temperature);
-  return gas;
-}
 
 AggregatesGas readAggregatesGas(const std::filesystem::path& file) {
   const std::string text = readTextFile(file, "a table of a gas");

@@ -2,26 +2,22 @@
 
 #include <cmath>
 
-#include "app/problems/aggregates/aggregates_repeat.hpp"
 #include "app/run/repeat_columns.hpp"
+#include "particles/aggregates/aggregates_repeat.hpp"
 
 namespace lampblack::app {
 
-std::vector<Quantity> aggregateColumns() {
-  std::vector<Quantity> columns{{"time", "s", "time in the gas"}, {"temperature", "K", "gas temperature"}};
-  for (const Quantity& quantity : aggregateQuantities()) addRepeatColumns(quantity, columns);
-  return columns;
-}
-
-std::vector<double> aggregateHistory(const AggregatesCase& made, std::span<const double> repeats) {
+Table aggregateHistory(const AggregatesCase& made, std::span<const double> repeats) {
   const std::size_t width = aggregateQuantities().size(), all = made.rows() * width;
   const auto count = static_cast<double>(made.repeats);
   const RepeatIntervals intervals(made.repeats);
-  std::vector<double> history;
+  Table history{{{"time", "s", "time in the gas"}, {"temperature", "K", "gas temperature"}}};
+  for (const Quantity& quantity : aggregateQuantities()) addRepeatColumns(quantity, history.columns);
+  if (repeats.empty()) return history;
   for (std::size_t row = 0; row < made.rows(); ++row) {
     const double time = made.timeOf(row);
-    history.push_back(time);
-    history.push_back(made.gas.time.empty() ? std::nan("") : made.gas.at(time).temperature);
+    history.rows.push_back(time);
+    history.rows.push_back(made.gas.time.empty() ? std::nan("") : made.gas.at(time).temperature);
     for (std::size_t q = 0; q < width; ++q) {
       double mean = 0, squares = 0;
       for (std::size_t r = 0; r < made.repeats; ++r) mean += repeats[r * all + row * width + q] / count;
@@ -29,7 +25,7 @@ std::vector<double> aggregateHistory(const AggregatesCase& made, std::span<const
         const double apart = repeats[r * all + row * width + q] - mean;
         squares += apart * apart;
       }
-      intervals.append(mean, std::sqrt(squares / (count * (count - 1))), history);
+      intervals.append(mean, std::sqrt(squares / (count * (count - 1))), history.rows);
     }
   }
   return history;
@@ -51,13 +47,6 @@ void writeAggregates(ResultsWriter& results, const std::vector<SphereAggregate>&
                  {"partner", "1", "number, within the aggregate, of the sphere before it that it is joined to"},
                  {"neck", "m", "radius of that neck; of the first sphere zero, and in point contact"}},
                 rows);
-}
-
-void recordAggregates(JsonWriter& json, const AggregatesCase& made, std::span<const double> history) {
-  const std::vector<Quantity> columns = aggregateColumns();
-  json.field("repeats", made.repeats);
-  const std::size_t last = history.size() - columns.size();
-  for (std::size_t c = 0; c < columns.size(); ++c) json.field("final_" + columns[c].name, history[last + c]);
 }
 
 }  // namespace lampblack::app

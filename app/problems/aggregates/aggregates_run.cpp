@@ -6,12 +6,12 @@
 
 #include "app/problems/aggregates/aggregates_case.hpp"
 #include "app/problems/aggregates/aggregates_output.hpp"
-#include "app/problems/aggregates/aggregates_repeat.hpp"
 #include "core/errors.hpp"
 #include "core/repeats.hpp"
 #include "core/stop_request.hpp"
 #include "io/history.hpp"
 #include "io/progress.hpp"
+#include "particles/aggregates/aggregates_repeat.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -70,24 +70,19 @@ class PreparedAggregates : public PreparedRun {
   }
 
   void write(const RunFolder& folder, const RunInfo& info, const std::vector<double>& repeats, RunRecord& record) {
-    std::vector<double> history;
-    if (rank_ == 0) history = aggregateHistory(case_, repeats);
+    const Table history = aggregateHistory(case_, rank_ == 0 ? std::span(repeats) : std::span<const double>());
     ResultsWriter results(comm_, folder.results(), info);
-    HistoryWriter rows(comm_, folder.history(), aggregateColumns());
-    rows.row(history);
-    rows.writeTo(results);
+    history.writeHistory(comm_, folder.history(), results);
     writeAggregates(results, drawn_);
     results.close();
     if (rank_ != 0) return;
-    JsonWriter json;
-    json.beginObject();
-    recordAggregates(json, case_, history);
-    json.endObject();
-    record.resultsJson = json.text();
-    const std::vector<Quantity> columns = aggregateColumns();
+    record.resultsJson = jsonObject([&](JsonWriter& json) {
+      json.field("repeats", case_.repeats);
+      history.recordLast(json, 0);
+    });
     const auto lastOf = [&](const char* name) {
-      const auto at = std::ranges::find(columns, name, &Quantity::name) - columns.begin();
-      return history[history.size() - columns.size() + static_cast<std::size_t>(at)];
+      const auto at = std::ranges::find(history.columns, name, &Quantity::name) - history.columns.begin();
+      return history.last(static_cast<std::size_t>(at));
     };
     fmt::print("{:.4g} spheres a particle, R_g {:.4g} m, D_f {:.4g} +- {:.2g}, projected area {:.4g} m^2\n",
                lastOf("spheres"), lastOf("gyration"), lastOf("fractal_dimension"), lastOf("fractal_dimension_error"),

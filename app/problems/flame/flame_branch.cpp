@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "io/csv.hpp"
+#include "io/table.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -14,22 +15,16 @@ double strainAt(const FlameBranchResult& result, double load) {
   return result.strain ? load * *result.strain : std::nan("");
 }
 
-const std::vector<Quantity>& columns() {
-  static const std::vector<Quantity> table{
-      {"load", "1", "factor on the strain: of strain rates and of the streams' mass fluxes"},
-      {"strain_rate", "1/s", "global strain rate, or that of the potential flow; NaN where there is none"},
-      {"maximum_temperature", "K", "largest temperature"},
-      {"points", "1", "points of the grid"},
-      {"newton_steps", "1", "Newton steps"}};
-  return table;
-}
-
-std::vector<double> rowsOf(const FlameBranchResult& result) {
-  std::vector<double> rows;
-  for (const FlameBranchPoint& point : result.branch.points)
-    rows.insert(rows.end(), {point.load, strainAt(result, point.load), point.peakTemperature,
-                             static_cast<double>(point.gridPoints), static_cast<double>(point.newton.steps)});
-  return rows;
+// Of the points of a branch.
+TableOf<const FlameBranchPoint&> pointsTable(const FlameBranchResult& result) {
+  using Point = FlameBranchPoint;
+  return {{{"load", "1", "factor on the strain: of strain rates and of the streams' mass fluxes"},
+           [](const Point& p) { return p.load; }},
+          {{"strain_rate", "1/s", "global strain rate, or that of the potential flow; NaN where there is none"},
+           [&result](const Point& p) { return strainAt(result, p.load); }},
+          {{"maximum_temperature", "K", "largest temperature"}, [](const Point& p) { return p.peakTemperature; }},
+          {{"points", "1", "points of the grid"}, [](const Point& p) { return static_cast<double>(p.gridPoints); }},
+          {{"newton_steps", "1", "Newton steps"}, [](const Point& p) { return static_cast<double>(p.newton.steps); }}};
 }
 
 }  // namespace
@@ -68,26 +63,24 @@ std::vector<NamedNumber> namedBranchNumbers(const FlameBranchResult& result) {
 }
 
 void writeBranch(ResultsWriter& results, const FlameBranchResult& result) {
-  results.table("/continuation", columns(), rowsOf(result));
-  std::vector<double> turns;
-  for (const TurningPoint& turn : result.branch.turningPoints)
-    turns.insert(turns.end(),
-                 {turn.load, strainAt(result, turn.load), turn.highest ? 1.0 : 0.0, static_cast<double>(turn.index)});
-  results.table("/continuation/turning_points",
-                {{"load", "1", "factor on the strain"},
-                 {"strain_rate", "1/s", "as of the points"},
-                 {"highest", "1", "1: the load is highest here (extinction); 0: lowest (ignition)"},
-                 {"point", "1", "number of the point of the branch nearest to it, from 0"}},
-                turns);
+  pointsTable(result).of(result.branch.points).write(results, "/continuation");
+  const TableOf<const TurningPoint&> turns{
+      {{"load", "1", "factor on the strain"}, [](const TurningPoint& t) { return t.load; }},
+      {{"strain_rate", "1/s", "as of the points"}, [&](const TurningPoint& t) { return strainAt(result, t.load); }},
+      {{"highest", "1", "1: the load is highest here (extinction); 0: lowest (ignition)"},
+       [](const TurningPoint& t) { return t.highest ? 1.0 : 0.0; }},
+      {{"point", "1", "number of the point of the branch nearest to it, from 0"},
+       [](const TurningPoint& t) { return static_cast<double>(t.index); }}};
+  turns.of(result.branch.turningPoints).write(results, "/continuation/turning_points");
   results.attribute("/continuation", "complete", static_cast<std::int64_t>(result.branch.complete ? 1 : 0));
   results.attribute("/continuation", "reason", result.branch.reason);
 }
 
 std::string branchTable(const FlameBranchResult& result) {
-  std::string text = csvHeader(columns());
-  const std::vector<double> rows = rowsOf(result);
+  const auto [columns, rows] = pointsTable(result).of(result.branch.points);
+  std::string text = csvHeader(columns);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const bool last = (i + 1) % columns().size() == 0;
+    const bool last = (i + 1) % columns.size() == 0;
     text += (std::isfinite(rows[i]) ? fmt::format("{}", rows[i]) : "") + (last ? "\n" : ",");
   }
   return text;

@@ -8,6 +8,7 @@
 #include "app/problems/flame/flame_file.hpp"
 #include "core/errors.hpp"
 #include "io/csv.hpp"
+#include "io/table.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -74,47 +75,46 @@ void writeFields(ResultsWriter& results, const FlameCase& flame, const FlameFiel
 }
 
 void writeStages(ResultsWriter& results, const FlameSolution& solution) {
-  const std::vector<Quantity> columns{{"points", "1", "points of the grid"},
-                                      {"newton_steps", "1", "Newton steps"},
-                                      {"time_steps", "1", "pseudo-transient steps"},
-                                      {"factorisations", "1", "Newton matrices built and factorised"},
-                                      {"residuals", "1", "evaluations of the equations by the solver"},
-                                      {"step_size", "1", "scaled size of the last Newton step"},
-                                      {"worst_residual", "1", "scaled Newton correction at its worst unknown"},
-                                      {"seconds", "s", "wall time"}};
-  std::vector<double> rows;
+  const auto count = [](std::size_t n) { return static_cast<double>(n); };
+  const TableOf<const FlameStage&> table{
+      {{"points", "1", "points of the grid"}, [&](const auto& s) { return count(s.points); }},
+      {{"newton_steps", "1", "Newton steps"}, [&](const auto& s) { return count(s.newton.steps); }},
+      {{"time_steps", "1", "pseudo-transient steps"}, [&](const auto& s) { return count(s.newton.timeSteps); }},
+      {{"factorisations", "1", "Newton matrices built and factorised"},
+       [&](const auto& s) { return count(s.newton.factorisations); }},
+      {{"residuals", "1", "evaluations of the equations by the solver"},
+       [&](const auto& s) { return count(s.newton.residuals); }},
+      {{"step_size", "1", "scaled size of the last Newton step"}, [](const auto& s) { return s.newton.stepSize; }},
+      {{"worst_residual", "1", "scaled Newton correction at its worst unknown"},
+       [](const auto& s) { return s.newton.worstResidual; }},
+      {{"seconds", "s", "wall time"}, [](const auto& s) { return s.seconds; }}};
   std::vector<std::string> names, worst;
   for (const FlameStage& stage : solution.stages) {
     names.push_back(stage.name);
     worst.push_back(stage.newton.worst);
-    for (const std::size_t count : {stage.points, stage.newton.steps, stage.newton.timeSteps,
-                                    stage.newton.factorisations, stage.newton.residuals})
-      rows.push_back(static_cast<double>(count));
-    rows.insert(rows.end(), {stage.newton.stepSize, stage.newton.worstResidual, stage.seconds});
   }
-  results.table("/stages", columns, rows);
+  table.of(solution.stages).write(results, "/stages");
   results.texts("/stages/name", names, "what was solved");
   results.texts("/stages/worst", worst, "unknown with the largest scaled Newton correction");
 }
 
 void writeBudgets(ResultsWriter& results, const FlameSolution& solution) {
-  const std::vector<Quantity> columns{
-      {"in", "kg/m^2/s", "with the streams; of energy W/m^2"},
-      {"out", "kg/m^2/s", "at the ends and sideways, by spreading; of energy W/m^2"},
-      {"wall", "kg/m^2/s", "deposited on burner or wall; of energy conducted into it, W/m^2"},
-      {"radiated", "W/m^2", "lost by radiation"},
-      {"given", "kg/m^2/s",
-       "by what is computed apart, as ensembles coupled both ways; negative: taken; of energy W/m^2"},
-      {"imbalance", "kg/m^2/s", "in + given - out - wall - radiated"},
-      {"relative_imbalance", "1", "over what comes in (of energy: over the largest of in, out and wall)"}};
-  std::vector<double> rows;
+  const TableOf<const FlameBudget&> table{
+      {{"in", "kg/m^2/s", "with the streams; of energy W/m^2"}, [](const auto& b) { return b.in; }},
+      {{"out", "kg/m^2/s", "at the ends and sideways, by spreading; of energy W/m^2"},
+       [](const auto& b) { return b.out; }},
+      {{"wall", "kg/m^2/s", "deposited on burner or wall; of energy conducted into it, W/m^2"},
+       [](const auto& b) { return b.wall; }},
+      {{"radiated", "W/m^2", "lost by radiation"}, [](const auto& b) { return b.radiated; }},
+      {{"given", "kg/m^2/s",
+        "by what is computed apart, as ensembles coupled both ways; negative: taken; of energy W/m^2"},
+       [](const auto& b) { return b.given; }},
+      {{"imbalance", "kg/m^2/s", "in + given - out - wall - radiated"}, [](const auto& b) { return b.imbalance(); }},
+      {{"relative_imbalance", "1", "over what comes in (of energy: over the largest of in, out and wall)"},
+       [&](const auto& b) { return relativeImbalance(b, solution.budgets); }}};
   std::vector<std::string> names;
-  for (const FlameBudget& budget : solution.budgets) {
-    names.push_back(budget.name);
-    rows.insert(rows.end(), {budget.in, budget.out, budget.wall, budget.radiated, budget.given, budget.imbalance(),
-                             relativeImbalance(budget, solution.budgets)});
-  }
-  results.table("/budgets", columns, rows);
+  for (const FlameBudget& budget : solution.budgets) names.push_back(budget.name);
+  table.of(solution.budgets).write(results, "/budgets");
   results.texts("/budgets/name", names, "conserved quantity");
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/problems/flame/flame_ensemble_output.hpp"
 #include "core/errors.hpp"
+#include "io/table.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -55,27 +56,26 @@ StochasticFlame runStochasticFlame(MPI_Comm comm, const Mechanism& mechanism, do
 void writeStochasticFlame(ResultsWriter& results, const StochasticRequest& request, const StochasticFlame& flame) {
   writeFlameEnsemble(results, flame.paths, request.coupling.ensemble, request.heights);
   if (flame.steps.empty()) return;
-  std::vector<double> rows;
-  for (const FlameCouplingStep& s : flame.steps) {
-    rows.insert(rows.end(), {static_cast<double>(s.points), s.volumeFraction, s.noise, s.volumeFractionChange,
-                             s.temperatureChange, s.speciesChange});
-    for (std::size_t e = 0; e < s.taken.size(); ++e) rows.insert(rows.end(), {s.taken[e], s.leaving[e]});
-    rows.push_back(s.seconds);
+  using Step = FlameCouplingStep;
+  TableOf<const Step&> table{
+      {{"points", "1", "of the flame"}, [](const Step& s) { return static_cast<double>(s.points); }},
+      {{"volume_fraction", "1", "the largest"}, [](const Step& s) { return s.volumeFraction; }},
+      {{"noise", "1", "standard error of it, relative"}, [](const Step& s) { return s.noise; }},
+      {{"volume_fraction_change", "1", "largest change since the last iteration, over the largest value"},
+       [](const Step& s) { return s.volumeFractionChange; }},
+      {{"temperature_change", "1", "the same of the temperature"}, [](const Step& s) { return s.temperatureChange; }},
+      {{"species_change", "1", "the same of the mass fraction of " + request.watched},
+       [](const Step& s) { return s.speciesChange; }}};
+  for (std::size_t e = 0; e < request.elements.size(); ++e) {
+    const std::string& element = request.elements[e];
+    table.add({element + "_taken", "kg/m^2/s",
+               "of the element " + element + ", that the ensemble takes from the gas along its paths"},
+              [e](const Step& s) { return s.taken[e]; });
+    table.add({element + "_leaving", "kg/m^2/s", "the same with which particles leave at the ends of paths"},
+              [e](const Step& s) { return s.leaving[e]; });
   }
-  std::vector<Quantity> columns{
-      {"points", "1", "of the flame"},
-      {"volume_fraction", "1", "the largest"},
-      {"noise", "1", "standard error of it, relative"},
-      {"volume_fraction_change", "1", "largest change since the last iteration, over the largest value"},
-      {"temperature_change", "1", "the same of the temperature"},
-      {"species_change", "1", "the same of the mass fraction of " + request.watched}};
-  for (const std::string& element : request.elements) {
-    columns.push_back({element + "_taken", "kg/m^2/s",
-                       "of the element " + element + ", that the ensemble takes from the gas along its paths"});
-    columns.push_back({element + "_leaving", "kg/m^2/s", "the same with which particles leave at the ends of paths"});
-  }
-  columns.push_back({"seconds", "s", "of the iteration"});
-  results.table("/stochastic/iterations", columns, rows);
+  table.add({"seconds", "s", "of the iteration"}, [](const Step& s) { return s.seconds; });
+  table.of(flame.steps).write(results, "/stochastic/iterations");
 }
 
 void recordStochasticFlame(JsonWriter& json, const StochasticFlame& flame) {

@@ -8,62 +8,54 @@
 #include "app/deck/population_deck.hpp"
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/trees_deck.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 
+namespace {
+
+DeckKeys<StochasticRequest> stochasticKeys() {
+  using Request = StochasticRequest;
+  constexpr auto coupling = [](auto member) { return inner(&Request::coupling, member); };
+  DeckKeys<Request> keys("particles");
+  keys.choice("coupling", &Request::twoWay, {{"decoupled", false}, {"two_way", true}},
+              rules().formerly("coupled").byDefault("decoupled"),
+              "decoupled: the flame as solved with the model that it carries, whose exchange with the gas stands for "
+              "the ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.");
+  keys.quantity(
+      "start", units::length, rules().optional().atLeast(0),
+      "Distance at which paths start, from the end of the domain that particles come from; absent: at that end.");
+  keys.quantity("minimum_velocity", units::velocity, rules().formerly("slowest").byDefault("1 mm/s").above(0),
+                "A path ends where the particles are slower than this, near the stagnation plane.");
+  keys.quantity("heights", units::length, &Request::heights, rules().list().optional(),
+                "Positions at which size distributions are written.");
+  keys.integer("iterations", coupling(&FlameCouplingOptions::iterations),
+               rules().byDefault("10").atLeast(1).onlyWith("particles.coupling", {"two_way"}),
+               "Largest number of iterations between gas and ensemble.");
+  keys.number("relaxation", coupling(&FlameCouplingOptions::relaxation),
+              rules().byDefault("0.7").above(0).atMost(1).onlyWith("particles.coupling", {"two_way"}),
+              "Weight of the new exchange between gas and ensemble in an iteration, the rest being the old one: "
+              "smaller is steadier and slower.");
+  keys.number("tolerance", coupling(&FlameCouplingOptions::tolerance),
+              rules().byDefault("0.01").above(0).onlyWith("particles.coupling", {"two_way"}),
+              "The iteration has converged where volume fraction, temperature and the main species of growth change "
+              "relatively by less than this.");
+  return keys;
+}
+
+}  // namespace
+
 void addStochasticKeys(DeckSchema& schema) {
   addRepeatKeys(schema);
-  DeckSchema part;
-  part.add(choiceKey("particles.coupling", {"decoupled", "two_way"},
-                     "decoupled: the flame as solved with the model that it carries, whose exchange with the gas "
-                     "stands for the ensemble's; two_way: iterated until the gas sees what the ensemble exchanges.")
-               .formerly("coupled")
-               .byDefault("decoupled"))
-      .add(quantityKey("particles.start", units::length,
-                       "Distance at which paths start, from the end of the domain that particles come from; absent: at "
-                       "that end.")
-               .optional()
-               .atLeast(0))
-      .add(quantityKey("particles.minimum_velocity", units::velocity,
-                       "A path ends where the particles are slower than this, near the stagnation plane.")
-               .formerly("slowest")
-               .byDefault("1 mm/s")
-               .above(0))
-      .add(quantityKey("particles.heights", units::length, "Positions at which size distributions are written.")
-               .list()
-               .optional())
-      .add(integerKey("particles.iterations", "Largest number of iterations between gas and ensemble.")
-               .byDefault("10")
-               .atLeast(1)
-               .onlyWith("particles.coupling", {"two_way"}))
-      .add(numberKey("particles.relaxation",
-                     "Weight of the new exchange between gas and ensemble in an iteration, the rest being the old one: "
-                     "smaller is steadier and slower.")
-               .byDefault("0.7")
-               .above(0)
-               .atMost(1)
-               .onlyWith("particles.coupling", {"two_way"}))
-      .add(numberKey("particles.tolerance",
-                     "The iteration has converged where volume fraction, temperature and the main species of growth "
-                     "change relatively "
-                     "by less than this.")
-               .byDefault("0.01")
-               .above(0)
-               .onlyWith("particles.coupling", {"two_way"}));
-  schema.add(part, ofPopulations());
+  schema.add(stochasticKeys().schema(), ofPopulations());
   addTreeRunKeys(schema);
 }
 
 std::optional<StochasticRequest> readStochastic(const Deck& deck, const std::shared_ptr<const Mechanism>& mechanism,
                                                 double length, bool bothSides) {
   if (!hasPopulation(deck)) return std::nullopt;
-  StochasticRequest request;
-  request.twoWay = deck.choice("particles.coupling") == "two_way";
-  FlameCouplingOptions& coupling = request.coupling;
-  coupling.iterations = deck.integer<std::size_t>("particles.iterations");
-  coupling.relaxation = deck.number("particles.relaxation");
-  coupling.tolerance = deck.number("particles.tolerance");
-  FlameEnsembleOptions& ensemble = coupling.ensemble;
+  StochasticRequest request = stochasticKeys().read(deck);
+  FlameEnsembleOptions& ensemble = request.coupling.ensemble;
   const PopulationRequest given = readPopulation(deck, mechanism);
   ensemble.make = given.make;
   ensemble.repeats = given.repeats;
@@ -81,7 +73,6 @@ std::optional<StochasticRequest> readStochastic(const Deck& deck, const std::sha
     if (path.start) path.start = length - *path.start;
     ensemble.paths.push_back(path);
   }
-  if (deck.has("particles.heights")) request.heights = deck.quantities("particles.heights");
   for (const double z : request.heights)
     if (z < 0 || z > length)
       throw deck.error("particles.heights", fmt::format("{:g} m is outside the flame, 0 to {:g} m", z, length));

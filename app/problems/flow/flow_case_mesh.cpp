@@ -12,6 +12,7 @@
 #include "app/problems/flow/flow_limits.hpp"
 #include "core/errors.hpp"
 #include "core/grading.hpp"
+#include "io/deck_keys.hpp"
 #include "io/formula.hpp"
 #include "io/grid_table.hpp"
 
@@ -175,76 +176,60 @@ std::optional<Partitioner> readPartitioner(const Deck& deck) {
 }  // namespace
 
 void addMeshKeys(DeckSchema& schema) {
-  schema
-      .add(choiceKey(
-               "mesh.geometry", {"axisymmetric", "planar", "space"},
-               "Symmetry of the domain: axisymmetric, with axes r and z; planar, with x and y; or none, space, with "
-               "x, y and z.")
-               .byDefault("axisymmetric"))
-      .add(stringKey(
-               "mesh.file",
-               "Mesh file of Gmsh (versions 2.0 to 2.2, 4.0 and 4.1), relative to the deck, in place of segments along "
-               "axes: "
-               "triangles and quadrilaterals in a plane (axisymmetric: x of the file is the radius r, y is z), or, "
-               "with geometry space, tetrahedra, pyramids, prisms and hexahedra. Its physical groups of lines (space: "
-               "of faces) are the boundaries, by their names, or those without one by their numbers; a group inside "
-               "the gas is a wall of no thickness where its boundary is one.")
-               .optional())
-      .add(quantityKey("mesh.unit", units::length, "Length of one unit of the mesh file, '1 mm'; absent: 1 m.")
-               .optional()
-               .above(0))
-      .add(numberKey("mesh.refinement", "Multiplies the cell count of every segment.").byDefault("1").above(0))
-      .add(choiceKey(
-               "mesh.partition", {"curve", "metis", "ptscotch"},
-               "How the cells are spread over the ranks: pieces of a space-filling curve, for which no rank holds more "
-               "than its share; by METIS, whose first rank holds the graph of the whole mesh (about 200 bytes a cell); "
-               "or by PT-Scotch, where PETSc has it, whose pieces are others in each run. Results differ by round-off "
-               "alone; to the last bit a run and its restarts repeat with curve and metis. Absent: the curve for "
-               "segments along axes, METIS for a mesh file of up to ten million cells.")
-               .optional())
-      .add(
-          numberKey("mesh.repartition",
-                    "Cost of the busiest rank over the mean, '1.2', above which the mesh is partitioned anew between "
-                    "two steps, by what each of its cells costs its own rank. What work sharing spreads over the ranks "
-                    "is even already: this is for 'chemistry.share_work: false'. Absent: the mesh keeps its pieces.")
-              .optional()
-              .above(1));
+  SectionKeys keys("");
+  keys.choice("mesh.geometry", {"axisymmetric", "planar", "space"}, rules().byDefault("axisymmetric"),
+              "Symmetry of the domain: axisymmetric, with axes r and z; planar, with x and y; or none, space, with x, "
+              "y and z.");
+  keys.text("mesh.file", rules().optional(),
+            "Mesh file of Gmsh (versions 2.0 to 2.2, 4.0 and 4.1), relative to the deck, in place of segments along "
+            "axes: triangles and quadrilaterals in a plane (axisymmetric: x of the file is the radius r, y is z), or, "
+            "with geometry space, tetrahedra, pyramids, prisms and hexahedra. Its physical groups of lines (space: of "
+            "faces) are the boundaries, by their names, or those without one by their numbers; a group inside the gas "
+            "is a wall of no thickness where its boundary is one.");
+  keys.quantity("mesh.unit", units::length, rules().optional().above(0),
+                "Length of one unit of the mesh file, '1 mm'; absent: 1 m.");
+  keys.number("mesh.refinement", rules().byDefault("1").above(0), "Multiplies the cell count of every segment.");
+  keys.choice("mesh.partition", {"curve", "metis", "ptscotch"}, rules().optional(),
+              "How the cells are spread over the ranks: pieces of a space-filling curve, for which no rank holds more "
+              "than its share; by METIS, whose first rank holds the graph of the whole mesh (about 200 bytes a cell); "
+              "or by PT-Scotch, where PETSc has it, whose pieces are others in each run. Results differ by round-off "
+              "alone; to the last bit a run and its restarts repeat with curve and metis. Absent: the curve for "
+              "segments along axes, METIS for a mesh file of up to ten million cells.");
+  keys.number("mesh.repartition", rules().optional().above(1),
+              "Cost of the busiest rank over the mean, '1.2', above which the mesh is partitioned anew between two "
+              "steps, by what each of its cells costs its own rank. What work sharing spreads over the ranks is even "
+              "already: this is for 'chemistry.share_work: false'. Absent: the mesh keeps its pieces.");
   for (const std::string axis : {"r", "z", "x", "y"}) {
     const std::string list = "mesh." + axis;
-    schema.section(list, Presence::optional, "Segments of the " + axis + " axis, one after the other from zero.")
-        .add(quantityKey(list + "[].to", units::length, "Coordinate at which the segment ends.").above(0))
-        .add(integerKey(list + "[].cells", "Number of cells of the segment.").atLeast(1))
-        .add(
-            numberKey(list + "[].ratio", "Last cell size over first; above 1 the cells grow.").byDefault("1").above(0));
+    keys.section(list, Presence::optional, "Segments of the " + axis + " axis, one after the other from zero.");
+    keys.quantity(list + "[].to", units::length, rules().above(0), "Coordinate at which the segment ends.");
+    keys.integer(list + "[].cells", rules().atLeast(1), "Number of cells of the segment.");
+    keys.number(list + "[].ratio", rules().byDefault("1").above(0),
+                "Last cell size over first; above 1 the cells grow.");
   }
-  schema.section(
-      "mesh.solids.*", Presence::optional,
-      "A box of solid in the mesh - a step, a lip, a bluff body - whose cells are left out: those with their "
-      "centres in it. Each has a boundary, 'lip: {type: wall, solid: lip}'.");
+  keys.section("mesh.solids.*", Presence::optional,
+               "A box of solid in the mesh - a step, a lip, a bluff body - whose cells are left out: those with their "
+               "centres in it. Each has a boundary, 'lip: {type: wall, solid: lip}'.");
   for (const std::string axis : {"r", "z", "x", "y"})
-    schema.add(quantityKey("mesh.solids.*." + axis, units::length,
-                           "Lower and upper end of the solid along the " + axis +
-                               " axis, '[0 mm, 5 mm]'; absent: it goes through the whole mesh along it.")
-                   .list(2)
-                   .optional());
+    keys.quantity("mesh.solids.*." + axis, units::length, rules().list(2).optional(),
+                  "Lower and upper end of the solid along the " + axis +
+                      " axis, '[0 mm, 5 mm]'; absent: it goes through the whole mesh along it.");
   for (const auto& [name, what, otherwise] :
        {std::array<std::string, 3>{"floor", "lower", "y = 0"},
         std::array<std::string, 3>{"ceiling", "upper", "the end of the last segment of y"}}) {
     const std::string section = "mesh." + name;
-    schema
-        .section(
-            section, Presence::optional,
-            "A " + what +
-                " wall that is not straight: its height y over x, by a formula or a table; absent: " + otherwise +
-                ". The vertices between floor and ceiling keep their proportions; 'from' and 'to' of boundaries and "
-                "solids are as if both were straight.",
-            {{"mesh.geometry", {"planar"}}})
-        .add(stringKey(section + ".formula", "Height in m over x in m, '0.01 + 0.002*sin(300*x)'.").optional())
-        .add(stringKey(section + ".table",
-                       "CSV file, relative to the deck, with points of the wall: the columns x and y, a unit may stand "
-                       "behind a name, 'y [mm]'. Linear between its points, constant beyond them.")
-                 .optional());
+    keys.section(section, Presence::optional,
+                 "A " + what +
+                     " wall that is not straight: its height y over x, by a formula or a table; absent: " + otherwise +
+                     ". The vertices between floor and ceiling keep their proportions; 'from' and 'to' of boundaries "
+                     "and solids are as if both were straight.",
+                 {{"mesh.geometry", {"planar"}}});
+    keys.text(section + ".formula", rules().optional(), "Height in m over x in m, '0.01 + 0.002*sin(300*x)'.");
+    keys.text(section + ".table", rules().optional(),
+              "CSV file, relative to the deck, with points of the wall: the columns x and y, a unit may stand behind a "
+              "name, 'y [mm]'. Linear between its points, constant beyond them.");
   }
+  schema.add(keys.schema());
 }
 
 void readMesh(const Deck& deck, FlowCase& flowCase) {

@@ -8,6 +8,7 @@
 #include "app/deck/gas_input.hpp"
 #include "app/problems/flow/flow_case_parts.hpp"
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::flowcase {
 namespace {
@@ -68,6 +69,18 @@ const std::vector<double>& streamNamed(const Deck& deck, const std::string& key,
                                     fmt::join(streams, ", ")));
 }
 
+DeckKeys<CheckpointControl> checkpointKeys() {
+  DeckKeys<CheckpointControl> keys("checkpoint");
+  keys.integer("steps", &CheckpointControl::steps, rules().optional().atLeast(1),
+               "Time steps between two checkpoints, from which `lampblack run --restart` continues a run that was "
+               "interrupted; absent: checkpoints by wall time and on request only.");
+  keys.quantity("wall_time", units::time, &CheckpointControl::wallTime, rules().byDefault("30 min").above(0),
+                "Wall time between two checkpoints.");
+  keys.boolean("at_end", &CheckpointControl::atEnd, rules().byDefault("false"),
+               "Write a checkpoint at the end of the run too, from which it can be continued to a later end.");
+  return keys;
+}
+
 void readMixtureFraction(const Deck& deck, FlowCase& flowCase) {
   const std::string section = "output.mixture_fraction";
   if (!deck.has(section)) return;
@@ -86,67 +99,48 @@ std::string fileNameOf(std::string name) {
 }
 
 void addOutputKeys(DeckSchema& schema) {
-  schema
-      .add(quantityKey("output.interval", units::time, "Time between field outputs; the last state is always written.")
-               .optional()
-               .above(0)
-               .onlyWith("time.mode", {"transient"}))
-      .add(integerKey("output.history_steps",
-                      "Number of time steps, and of iterations, between two rows of the history.")
-               .byDefault("1")
-               .atLeast(1))
-      .add(stringKey("output.species", "Species whose mole fractions are written; 'all' writes every one.")
-               .list()
-               .byDefault("[all]"))
-      .add(booleanKey("output.wall_distance",
-                      "Whether the distance of each cell's centre from the nearest wall is a field of the results, "
-                      "wall_distance. Boundaries of the type wall count.")
-               .byDefault("false"))
-      .section("output.mixture_fraction", Presence::optional,
-               "Bilger's mixture fraction as a field of the results, mixture_fraction, by two streams of the deck.")
-      .add(stringKey("output.mixture_fraction.fuel", "Inlet or outlet whose gas has a mixture fraction of one."))
-      .add(stringKey("output.mixture_fraction.oxidizer", "Inlet or outlet whose gas has a mixture fraction of zero."))
-      .add(integerKey("output.compression",
-                      "How hard the fields of results.h5 are compressed, from 1, fast, to 9, small; 0: not at all. No "
-                      "value changes.")
-               .byDefault("0")
-               .atLeast(0)
-               .atMost(FileStorage::mostCompression))
-      .add(integerKey(
-               "output.writers",
-               "Number of ranks that collect the fields of the others and write them to results.h5, at most as "
-               "many as there are; few are better for some parallel file systems. Absent: each rank writes a share.")
-               .optional()
-               .atLeast(1))
-      .section("output.probes.*", Presence::optional,
-               "A place whose gas is written with each row of the history, to the table tables/probe_<name>.csv.")
-      .add(
-          quantityKey("output.probes.*.at", units::length, "Coordinates of the probe, '[10 mm, 5 mm]', in space three.")
-              .list())
-      .section("output.lines.*", Presence::optional,
-               "A straight line along which the gas is written with each field output, to the table "
-               "tables/line_<name>.csv.")
-      .add(quantityKey("output.lines.*.from", units::length, "Coordinates of the first point of the line.").list())
-      .add(quantityKey("output.lines.*.to", units::length, "Coordinates of the last point of the line.").list())
-      .add(integerKey("output.lines.*.points", "Number of points of the line, at even distances, both ends among them.")
-               .byDefault("101")
-               .atLeast(2)
-               .atMost(mostPoints))
-      .add(stringKey("output.quantities",
-                     "Fields that probes and lines have, by their names in the results (velocity: all of its "
-                     "components); empty: temperature, velocity, density, pressure, mole fractions of output.species "
-                     "and the soot's volume fraction.")
-               .list()
-               .byDefault("[]"))
-      .add(stringKey("output.boundaries",
-                     "Boundaries of which mass flow, heat, forces and what walls take of the particles are written "
-                     "with each row of the history, to the tables tables/boundary_<name>.csv, in whose names a "
-                     "character that is no letter, digit, _, - or + becomes _; 'all': all but periodic ones. With each "
-                     "field output tables/wall_<name>.csv has friction, heat flux and y+ of each "
-                     "face of a wall without slip, tables/deposit_<name>.csv what each face of a wall that takes "
-                     "particles has taken.")
-               .list()
-               .byDefault("[]"));
+  SectionKeys keys("output");
+  keys.quantity("interval", units::time, rules().optional().above(0).onlyWith("time.mode", {"transient"}),
+                "Time between field outputs; the last state is always written.");
+  keys.integer("history_steps", rules().byDefault("1").atLeast(1),
+               "Number of time steps, and of iterations, between two rows of the history.");
+  keys.text("species", rules().list().byDefault("[all]"),
+            "Species whose mole fractions are written; 'all' writes every one.");
+  keys.boolean("wall_distance", rules().byDefault("false"),
+               "Whether the distance of each cell's centre from the nearest wall is a field of the results, "
+               "wall_distance. Boundaries of the type wall count.");
+  keys.section("mixture_fraction", Presence::optional,
+               "Bilger's mixture fraction as a field of the results, mixture_fraction, by two streams of the deck.");
+  keys.text("mixture_fraction.fuel", rules(), "Inlet or outlet whose gas has a mixture fraction of one.");
+  keys.text("mixture_fraction.oxidizer", rules(), "Inlet or outlet whose gas has a mixture fraction of zero.");
+  keys.integer(
+      "compression", rules().byDefault("0").atLeast(0).atMost(FileStorage::mostCompression),
+      "How hard the fields of results.h5 are compressed, from 1, fast, to 9, small; 0: not at all. No value changes.");
+  keys.integer("writers", rules().optional().atLeast(1),
+               "Number of ranks that collect the fields of the others and write them to results.h5, at most as many as "
+               "there are; few are better for some parallel file systems. Absent: each rank writes a share.");
+  keys.section("probes.*", Presence::optional,
+               "A place whose gas is written with each row of the history, to the table tables/probe_<name>.csv.");
+  keys.quantity("probes.*.at", units::length, rules().list(),
+                "Coordinates of the probe, '[10 mm, 5 mm]', in space three.");
+  keys.section(
+      "lines.*", Presence::optional,
+      "A straight line along which the gas is written with each field output, to the table tables/line_<name>.csv.");
+  keys.quantity("lines.*.from", units::length, rules().list(), "Coordinates of the first point of the line.");
+  keys.quantity("lines.*.to", units::length, rules().list(), "Coordinates of the last point of the line.");
+  keys.integer("lines.*.points", rules().byDefault("101").atLeast(2).atMost(mostPoints),
+               "Number of points of the line, at even distances, both ends among them.");
+  keys.text(
+      "quantities", rules().list().byDefault("[]"),
+      "Fields that probes and lines have, by their names in the results (velocity: all of its components); empty: "
+      "temperature, velocity, density, pressure, mole fractions of output.species and the soot's volume fraction.");
+  keys.text("boundaries", rules().list().byDefault("[]"),
+            "Boundaries of which mass flow, heat, forces and what walls take of the particles are written with each "
+            "row of the history, to the tables tables/boundary_<name>.csv, in whose names a character that is no "
+            "letter, digit, _, - or + becomes _; 'all': all but periodic ones. With each field output "
+            "tables/wall_<name>.csv has friction, heat flux and y+ of each face of a wall without slip, "
+            "tables/deposit_<name>.csv what each face of a wall that takes particles has taken.");
+  schema.add(keys.schema()).add(checkpointKeys().schema());
 }
 
 void readOutput(const Deck& deck, FlowCase& flowCase) {
@@ -163,8 +157,7 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
   readMixtureFraction(deck, flowCase);
   output.storage = {deck.integer<int>("output.compression"), deck.optionalInteger<int>("output.writers").value_or(0)};
   output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
-  flowCase.checkpoint = {deck.optionalInteger<std::int64_t>("checkpoint.steps"), deck.quantity("checkpoint.wall_time"),
-                         deck.boolean("checkpoint.at_end")};
+  flowCase.checkpoint = checkpointKeys().read(deck);
   OutputTables& tables = output.tables;
   tables.deck = deck;
   tables.quantities = deck.strings("output.quantities");

@@ -7,6 +7,7 @@
 
 #include "app/problems/flow/flow_case.hpp"
 #include "core/modules.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::flowcase {
 
@@ -60,6 +61,8 @@ void readTurbulenceModel(const Deck& deck, FlowCase& flowCase);
 // The section combustion: its keys, and reading it when turbulence and particles have been read.
 void addCombustionKeys(DeckSchema& schema);
 void readCombustion(const Deck& deck, FlowCase& flowCase);
+
+DeckKeys<ReactionOperator::Options> chemistryKeys();
 
 // The section output: its keys, and reading it when mesh, boundaries and times have been read.
 void addOutputKeys(DeckSchema& schema);

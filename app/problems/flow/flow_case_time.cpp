@@ -21,11 +21,11 @@ DeckKeys<FlowCase> timeKeys() {
   constexpr auto time = [](auto member) { return inner(&FlowCase::time, member); };
   const DeckCondition inTime{"time.mode", {"transient"}};
   DeckKeys<FlowCase> keys("time");
-  keys.other("mode", KeyType::choice, choiceKey("", {"transient", "steady"}, "").byDefault("transient"),
-             "transient: the flow in time, from the start to time.end; steady: the state of the flow that does "
-             "not change any more, by steps in time until the flow is established, and iterations on the "
-             "residual of its equations from there. Outlets, boundaries that do not depend on time, and no "
-             "ensembles in the cells.");
+  keys.choice("mode", {"transient", "steady"}, rules().byDefault("transient"),
+              "transient: the flow in time, from the start to time.end; steady: the state of the flow that does "
+              "not change any more, by steps in time until the flow is established, and iterations on the "
+              "residual of its equations from there. Outlets, boundaries that do not depend on time, and no "
+              "ensembles in the cells.");
   keys.quantity("end", units::time, time(&Time::end), rules().optional().above(0).onlyWith(inTime),
                 "Time at which the run ends, from zero; a run in time needs it.");
   keys.quantity("first_step", units::time, time(&Time::firstStep), rules().byDefault("1 us").above(0),

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "app/problems/flow/flow_case_parts.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::flowcase {
 namespace {
@@ -71,6 +72,7 @@ FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCas
 }  // namespace
 
 void addTurbulenceKeys(DeckSchema& schema) {
+  SectionKeys keys("");
   std::vector<std::string> names{"none"}, described, ofOmega;
   for (const TurbulenceRow& row : turbulenceModels()) {
     names.emplace_back(row.name);
@@ -78,78 +80,46 @@ void addTurbulenceKeys(DeckSchema& schema) {
     if (turbulenceModel(row.name)->wallBeta() > 0.0) ofOmega.emplace_back(row.name);
   }
   const std::vector<std::string> models(names.begin() + 1, names.end());
-  schema
-      .add(choiceKey("turbulence.model", names,
-                     fmt::format(
-                         "Model of Reynolds-averaged turbulence. none: laminar, or all eddies resolved; {}. "
-                         "All but k_epsilon and realizable_k_epsilon resolve the layers beside walls: y+ of the first "
-                         "cells (history.csv) about one or less; those have wall functions: y+ from 30 to 300.",
-                         fmt::join(described, "; ")))
-               .byDefault("none"))
-      .add(numberKey("turbulence.prandtl", "Turbulent Prandtl number: eddies mix heat by their viscosity over it.")
-               .byDefault("0.9")
-               .above(0)
-               .onlyWith("turbulence.model", models))
-      .add(numberKey("turbulence.schmidt",
-                     "Turbulent Schmidt number, of species and of the particles of models. In flames 0.7 is usual for "
-                     "both.")
-               .byDefault("0.9")
-               .above(0)
-               .onlyWith("turbulence.model", models))
-      .add(numberKey("turbulence.eddy_viscosity_ratio",
-                     "Eddy viscosity over that of the molecules at the start, and of gas that outlets draw in.")
-               .byDefault("10")
-               .above(0)
-               .onlyWith("turbulence.model", models))
-      .add(choiceKey(
-               "turbulence.wall_distance", {"walls", "infinite"},
-               "Distances from walls, by which sa, sst, sst1994 and wang go. infinite: as if there were no walls, for "
-               "jets and other flows far from them.")
-               .byDefault("walls")
-               .onlyWith("turbulence.model", models))
-      .add(choiceKey("turbulence.walls", {"resolved", "automatic"},
-                     "How a model with omega meets walls. resolved: the first cell has y+ of about one or less. "
-                     "automatic: by both layers of the law of the wall at once, for cells of any thickness up to "
-                     "y+ 300.")
-               .byDefault("resolved")
-               .onlyWith("turbulence.model", ofOmega))
-      .add(numberKey("turbulence.c_epsilon1",
-                     "C_1 of k_epsilon, by which what makes k makes epsilon. 1.6 lets round jets spread as they are "
-                     "measured to; beside walls the logarithmic layer is another then (kappa 0.35).")
-               .byDefault("1.44")
-               .above(0)
-               .below(1.92)
-               .onlyWith("turbulence.model", {"k_epsilon"}))
-      .add(numberKey("turbulence.largest_eddy_viscosity_ratio",
-                     "A run ends where the eddy viscosity over that of the molecules becomes larger.")
-               .byDefault("1e5")
-               .above(0)
-               .onlyWith("turbulence.model", models))
-      .add(
-          quantityKey("turbulence.energy", units::velocity * units::velocity,
-                      "Turbulent kinetic energy k at the start, and of gas that outlets draw in, '0.3 m^2/s^2'; models "
-                      "of two equations need it, those of one do not look at it.")
-              .optional()
-              .above(0)
-              .onlyWith("turbulence.model", models))
-      .add(
-          numberKey("boundaries.*.turbulence_intensity",
-                    "Fluctuations of the velocity over the velocity: k = 1.5 (intensity * velocity)^2, of the velocity "
-                    "in the middle where it varies.")
-              .optional()
-              .above(0)
-              .onlyWith("boundaries.*.type", {"inlet"}))
-      .add(quantityKey("boundaries.*.turbulence_length", units::length,
-                       "Length of the eddies that come in; in developed pipes 0.07 of the diameter.")
-               .optional()
-               .above(0)
-               .onlyWith("boundaries.*.type", {"inlet"}))
-      .add(numberKey("boundaries.*.eddy_viscosity_ratio",
-                     "Eddy viscosity over that of the molecules of the gas that comes in, in place of the length; "
-                     "absent, for models of one equation: 0.21.")
-               .optional()
-               .above(0)
-               .onlyWith("boundaries.*.type", {"inlet"}));
+  keys.choice("turbulence.model", names, rules().byDefault("none"),
+              fmt::format("Model of Reynolds-averaged turbulence. none: laminar, or all eddies resolved; {}. All but "
+                          "k_epsilon and realizable_k_epsilon resolve the layers beside walls: y+ of the first cells "
+                          "(history.csv) about one or less; those have wall functions: y+ from 30 to 300.",
+                          fmt::join(described, "; ")));
+  keys.number("turbulence.prandtl", rules().byDefault("0.9").above(0).onlyWith("turbulence.model", models),
+              "Turbulent Prandtl number: eddies mix heat by their viscosity over it.");
+  keys.number("turbulence.schmidt", rules().byDefault("0.9").above(0).onlyWith("turbulence.model", models),
+              "Turbulent Schmidt number, of species and of the particles of models. In flames 0.7 is usual for both.");
+  keys.number("turbulence.eddy_viscosity_ratio", rules().byDefault("10").above(0).onlyWith("turbulence.model", models),
+              "Eddy viscosity over that of the molecules at the start, and of gas that outlets draw in.");
+  keys.choice("turbulence.wall_distance", {"walls", "infinite"},
+              rules().byDefault("walls").onlyWith("turbulence.model", models),
+              "Distances from walls, by which sa, sst, sst1994 and wang go. infinite: as if there were no walls, for "
+              "jets and other flows far from them.");
+  keys.choice("turbulence.walls", {"resolved", "automatic"},
+              rules().byDefault("resolved").onlyWith("turbulence.model", ofOmega),
+              "How a model with omega meets walls. resolved: the first cell has y+ of about one or less. automatic: by "
+              "both layers of the law of the wall at once, for cells of any thickness up to y+ 300.");
+  keys.number("turbulence.c_epsilon1",
+              rules().byDefault("1.44").above(0).below(1.92).onlyWith("turbulence.model", {"k_epsilon"}),
+              "C_1 of k_epsilon, by which what makes k makes epsilon. 1.6 lets round jets spread as they are measured "
+              "to; beside walls the logarithmic layer is another then (kappa 0.35).");
+  keys.number("turbulence.largest_eddy_viscosity_ratio",
+              rules().byDefault("1e5").above(0).onlyWith("turbulence.model", models),
+              "A run ends where the eddy viscosity over that of the molecules becomes larger.");
+  keys.quantity("turbulence.energy", units::velocity * units::velocity,
+                rules().optional().above(0).onlyWith("turbulence.model", models),
+                "Turbulent kinetic energy k at the start, and of gas that outlets draw in, '0.3 m^2/s^2'; models of "
+                "two equations need it, those of one do not look at it.");
+  keys.number("boundaries.*.turbulence_intensity", rules().optional().above(0).onlyWith("boundaries.*.type", {"inlet"}),
+              "Fluctuations of the velocity over the velocity: k = 1.5 (intensity * velocity)^2, of the velocity in "
+              "the middle where it varies.");
+  keys.quantity("boundaries.*.turbulence_length", units::length,
+                rules().optional().above(0).onlyWith("boundaries.*.type", {"inlet"}),
+                "Length of the eddies that come in; in developed pipes 0.07 of the diameter.");
+  keys.number("boundaries.*.eddy_viscosity_ratio", rules().optional().above(0).onlyWith("boundaries.*.type", {"inlet"}),
+              "Eddy viscosity over that of the molecules of the gas that comes in, in place of the length; absent, for "
+              "models of one equation: 0.21.");
+  schema.add(keys.schema());
 }
 
 void readTurbulenceModel(const Deck& deck, FlowCase& flowCase) {

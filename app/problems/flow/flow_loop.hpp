@@ -13,18 +13,17 @@
 #include <string>
 #include <vector>
 
-#include "app/problems/flow/cell_costs.hpp"
 #include "app/problems/flow/closing_stage.hpp"
 #include "app/problems/flow/flow_case.hpp"
 #include "app/problems/flow/flow_checkpoint.hpp"
 #include "app/problems/flow/flow_domain.hpp"
 #include "app/problems/flow/flow_output.hpp"
 #include "app/problems/flow/flow_tables.hpp"
-#include "app/problems/flow/wall_limit.hpp"
 #include "core/mesh_quality.hpp"
 #include "core/modules.hpp"
 #include "core/state_backup.hpp"
 #include "core/timers.hpp"
+#include "core/wall_limit.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/peak.hpp"
 #include "flow/steady/flame_steepness.hpp"
@@ -35,6 +34,7 @@
 #include "flow/steady/steady_iteration.hpp"
 #include "flow/steady/steady_rounds.hpp"
 #include "flow/steady/steady_search.hpp"
+#include "flow/stepping/cell_costs.hpp"
 #include "io/json.hpp"
 #include "io/progress.hpp"
 #include "io/run_folder.hpp"

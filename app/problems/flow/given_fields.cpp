@@ -10,6 +10,7 @@
 
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
+#include "io/deck_keys.hpp"
 #include "io/formula.hpp"
 #include "io/grid_table.hpp"
 
@@ -34,18 +35,16 @@ std::vector<std::string> namesOf(const GivenFields::Names& names) {
 }  // namespace
 
 void addGivenFieldKeys(DeckSchema& schema, const std::string& section, const std::string& names) {
-  schema
-      .add(stringKey(
-               section + ".formula.*",
-               "A quantity over place and time, '0.2*(1 - (r/0.005)^2)': a formula in SI of the mesh's axes (r and "
-               "z, x and y, or x, y and z) and t. Its name is one of: " +
-                   names + ".")
-               .optional())
-      .add(stringKey(section + ".table",
-                     "CSV file, relative to the deck, with columns that have the name of an axis or t, and of the same "
-                     "quantities as 'formula'; a unit may stand behind a name, 'velocity [cm/s]'. Linear between its "
-                     "points, constant beyond them.")
-               .optional());
+  SectionKeys keys(section);
+  keys.text("formula.*", rules().optional(),
+            "A quantity over place and time, '0.2*(1 - (r/0.005)^2)': a formula in SI of the mesh's axes (r and z, x "
+            "and y, or x, y and z) and t. Its name is one of: " +
+                names + ".");
+  keys.text(
+      "table", rules().optional(),
+      "CSV file, relative to the deck, with columns that have the name of an axis or t, and of the same quantities as "
+      "'formula'; a unit may stand behind a name, 'velocity [cm/s]'. Linear between its points, constant beyond them.");
+  schema.add(keys.schema());
 }
 
 GivenFields::GivenFields(const Deck& deck, const std::string& section, const AxisNames& axes, const Names& names,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 #include "io/grid_table.hpp"
 
 namespace lampblack::app::flowcase {
@@ -24,13 +25,12 @@ std::optional<units::Dimension> dimensionOf(const std::string& column) {
 }  // namespace
 
 void addInitialFlameKeys(DeckSchema& schema) {
-  schema
-      .section("initial.flame1d", Presence::optional,
-               "A one-dimensional flame to start from, laid over the mesh; 'layer' is none.")
-      .add(stringKey("initial.flame1d.file", "profile.csv of a run of problem flame1d, relative to the deck."))
-      .add(choiceKey("initial.flame1d.axis", {"r", "z", "x", "y"}, "Axis of the mesh that the flame's z lies along."))
-      .add(quantityKey("initial.flame1d.origin", units::length, "Coordinate on the axis where the flame has z = 0.")
-               .byDefault("0 m"));
+  SectionKeys keys("initial.flame1d");
+  keys.section(Presence::optional, "A one-dimensional flame to start from, laid over the mesh; 'layer' is none.");
+  keys.text("file", rules(), "profile.csv of a run of problem flame1d, relative to the deck.");
+  keys.choice("axis", {"r", "z", "x", "y"}, rules(), "Axis of the mesh that the flame's z lies along.");
+  keys.quantity("origin", units::length, rules().byDefault("0 m"), "Coordinate on the axis where the flame has z = 0.");
+  schema.add(keys.schema());
 }
 
 InitialFields readInitialFlame(const Deck& deck, const FlowCase& flowCase) {

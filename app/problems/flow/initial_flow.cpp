@@ -16,6 +16,7 @@
 #include "core/text_file.hpp"
 #include "flow/models/carried_operator.hpp"
 #include "io/csv.hpp"
+#include "io/deck_keys.hpp"
 #include "io/grid_table.hpp"
 #include "io/hdf5_reader.hpp"
 #include "io/table_column.hpp"
@@ -213,66 +214,26 @@ double thermodynamicPressure(const Hdf5Reader& results, const std::string& step)
   return historyColumn(results, "thermodynamic_pressure").at(static_cast<std::size_t>(row - times.begin()));
 }
 
-// Where solids have no cells the values are those of a cell next to them, so that the rows span a grid.
-void fillSolids(GridTable::Numbers& numbers) {
-  std::array<std::vector<double>, 2> points;
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    points[axis] = numbers.places[axis];
-    std::ranges::sort(points[axis]);
-    points[axis].erase(std::unique(points[axis].begin(), points[axis].end()), points[axis].end());
-  }
-  const std::size_t rows = numbers.places[0].size(), across = points[1].size(), all = points[0].size() * across;
-  constexpr std::size_t none = static_cast<std::size_t>(-1);
-  std::vector<std::size_t> rowAt(all, none), found;
-  for (std::size_t row = 0; row < rows; ++row) {
-    std::size_t at = 0;
-    for (std::size_t axis = 0; axis < 2; ++axis)
-      at = at * across + static_cast<std::size_t>(std::ranges::lower_bound(points[axis], numbers.places[axis][row]) -
-                                                  points[axis].begin());
-    rowAt[at] = row;
-    found.push_back(at);
-  }
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const std::size_t at = found[i];
-    const auto visit = [&](bool isThere, std::size_t next) {
-      if (!isThere || rowAt[next] != none) return;
-      rowAt[next] = rowAt[at];
-      found.push_back(next);
-      numbers.places[0].push_back(points[0][next / across]);
-      numbers.places[1].push_back(points[1][next % across]);
-      for (std::vector<double>& column : numbers.columns) column.push_back(column[rowAt[at]]);
-    };
-    visit(at % across > 0, at - 1);
-    visit(at % across + 1 < across, at + 1);
-    visit(at >= across, at - across);
-    visit(at + across < all, at + across);
-  }
-}
-
 }  // namespace
 
 void addInitialFlowKeys(DeckSchema& schema) {
-  schema
-      .section(section, Presence::optional,
+  SectionKeys keys(section);
+  keys.section(Presence::optional,
                "An earlier run of problem flow to start from, on a mesh of its own: gas, velocity, and soot and "
                "turbulence where their models are the earlier run's; 'layer' is none. The mechanism and the model may "
-               "be others: species go by "
-               "name. Linear between the earlier run's cells, beside solids as in the cell next to them. A closed "
-               "vessel takes the earlier run's thermodynamic pressure in place of 'pressure'.",
-               {{"initial.layer", {"none"}}})
-      .add(stringKey(section + ".results",
-                     "The earlier run's folder, or its results.h5, relative to the deck; of a run that was stopped the "
-                     "folder or results.h5.part. It holds all species of its "
-                     "mechanism ('output: {species: [all]}')."))
-      .add(quantityKey(section + ".time", units::time,
-                       "Time of the earlier run; the output next to it is taken. Absent: the last output.")
-               .optional())
-      .add(booleanKey(
-               section + ".light",
-               "true: what is mixed in the earlier run burns at the start: each cell whose mixture burns to a gas "
-               "at least 500 K hotter becomes that gas, of 2200 K at most. For a flame behind a body, in gas that "
-               "has found its way there.")
-               .byDefault("false"));
+               "be others: species go by name. Linear between the earlier run's cells, beside solids as in the cell "
+               "next to them. A closed vessel takes the earlier run's thermodynamic pressure in place of 'pressure'.",
+               {{"initial.layer", {"none"}}});
+  keys.text("results", rules(),
+            "The earlier run's folder, or its results.h5, relative to the deck; of a run that was stopped the folder "
+            "or results.h5.part. It holds all species of its mechanism ('output: {species: [all]}').");
+  keys.quantity("time", units::time, rules().optional(),
+                "Time of the earlier run; the output next to it is taken. Absent: the last output.");
+  keys.boolean(
+      "light", rules().byDefault("false"),
+      "true: what is mixed in the earlier run burns at the start: each cell whose mixture burns to a gas at least 500 "
+      "K hotter becomes that gas, of 2200 K at most. For a flame behind a body, in gas that has found its way there.");
+  schema.add(keys.schema());
 }
 
 InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase) {
@@ -302,7 +263,7 @@ InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<d
     numbers.places.push_back(component(centres, 3, axis));
   }
   numbers.names.resize(numbers.columns.size());
-  fillSolids(numbers);
+  fillHoles(numbers);
   const auto table = std::make_shared<GridTable>(
       std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
   std::size_t column = 0;

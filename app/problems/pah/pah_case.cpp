@@ -14,6 +14,7 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "coupling/given_gas.hpp"
+#include "io/deck_keys.hpp"
 #include "particles/pah/molecule_growth.hpp"
 #include "particles/pah/named_molecules.hpp"
 
@@ -122,101 +123,79 @@ void readRowsAndSpectra(const Deck& deck, PahCase& pah) {
   pah.path.points.resize(pah.recorded.back() + 1);
 }
 
+DeckKeys<PahCase> repeatKeys() {
+  DeckKeys<PahCase> keys("");
+  keys.integer("repeats", &PahCase::repeats, rules().byDefault("1000").atLeast(2).atMost(1e9),
+               "Number of molecules, each with random numbers of its own.");
+  keys.integer("seed", &PahCase::seed, rules().byDefault("1").atLeast(0),
+               "Start of the random numbers: another seed gives another sample, the same seed the same result.");
+  return keys;
+}
+
+DeckKeys<PahCase> checkpointKeys() {
+  DeckKeys<PahCase> keys("checkpoint");
+  keys.quantity("wall_time", units::time, &PahCase::checkpointInterval, rules().byDefault("30 min").above(0),
+                "Wall time between two checkpoints.");
+  keys.boolean("at_end", &PahCase::checkpointAtEnd, rules().byDefault("false"),
+               "Write a checkpoint at the end of the run too, from which it can go on to more repeats.");
+  return keys;
+}
+
 }  // namespace
 
 DeckSchema pahSchema() {
-  DeckSchema schema;
+  SectionKeys keys("");
   const std::vector<std::string> processes = pahProcessNames();
-  schema.add(choiceKey("problem", {"pah"}, "What is solved."))
-      .add(stringKey("title", "One line for reports and pictures.").byDefault("''"))
-      .add(stringKey("mechanism",
-                     "Mechanism that has the species of gas.file or gas.flame: a file in Cantera's YAML "
-                     "format, relative to the deck, or the name of one that ships.")
-               .optional())
-      .add(stringKey("phase", "Name of the phase of the mechanism file; without it the first ideal gas.").optional());
-  schema.section("molecule", Presence::required, "The molecule at the start. Either 'name' or 'cells'.")
-      .add(choiceKey("molecule.name", moleculeNames(), "A molecule that is known by its name.").optional())
-      .add(integerKey(
-               "molecule.cells",
+  keys.choice("problem", {"pah"}, rules(), "What is solved.");
+  keys.text("title", rules().byDefault("''"), "One line for reports and pictures.");
+  keys.text("mechanism", rules().optional(),
+            "Mechanism that has the species of gas.file or gas.flame: a file in Cantera's YAML format, relative to the "
+            "deck, or the name of one that ships.");
+  keys.text("phase", rules().optional(), "Name of the phase of the mechanism file; without it the first ideal gas.");
+  keys.section("molecule", Presence::required, "The molecule at the start. Either 'name' or 'cells'.");
+  keys.choice("molecule.name", moleculeNames(), rules().optional(), "A molecule that is known by its name.");
+  keys.integer("molecule.cells", rules().list().optional(),
                "Rings of six of the molecule, as cells of a lattice of hexagons, two numbers each: [0, 0, 1, 0] is "
-               "naphthalene. The neighbours of (q, r) are (q+1, r), (q, r+1), (q-1, r+1) and their opposites.")
-               .list()
-               .optional())
-      .add(integerKey("molecule.five_rings", "Rings of five of the molecule, as cells between two of the rings of six.")
-               .list()
-               .optional())
-      .add(integerKey("molecule.most_rings",
-                      "A molecule with more rings has left: it grows no further and is in no mean; how many have is "
-                      "said. Absent: no limit.")
-               .optional()
-               .atLeast(1));
-  schema
-      .section("gas", Presence::required,
+               "naphthalene. The neighbours of (q, r) are (q+1, r), (q, r+1), (q-1, r+1) and their opposites.");
+  keys.integer("molecule.five_rings", rules().list().optional(),
+               "Rings of five of the molecule, as cells between two of the rings of six.");
+  keys.integer("molecule.most_rings", rules().optional().atLeast(1),
+               "A molecule with more rings has left: it grows no further and is in no mean; how many have is said. "
+               "Absent: no limit.");
+  keys.section("gas", Presence::required,
                "The gas. Either temperature, pressure, mole_fractions and end, for one that stays as it is, or 'file' "
-               "or 'flame'.")
-      .add(quantityKey("gas.temperature", units::temperature, "Temperature of a gas that stays as it is.")
-               .optional()
-               .above(0))
-      .add(quantityKey("gas.pressure", units::pressure, "Pressure of a gas that stays as it is.").optional().above(0))
-      .add(
-          numberKey("gas.mole_fractions.*",
-                    "Mole fraction of a species that molecules react with, one of H, H2, OH, H2O, O2, C2H2; all others "
-                    "take no part and are not named.")
-              .optional()
-              .atLeast(0)
-              .atMost(1));
-  addGivenGasKeys(schema);
-  schema
-      .add(choiceKey("description", {"lattice", "sites"},
-                     "What is known of a molecule. lattice: where its rings are; sites: how many sites of each type it "
-                     "has, what is beside them by a table of runs on the lattice (docs/theory/site_counting.md).")
-               .byDefault("lattice"))
-      .add(stringKey("closure",
-                     "File of the table of neighbours that 'output.closure' of a run on the lattice has written, "
-                     "relative to the deck. It belongs to gases like that run's.")
-               .optional()
-               .onlyWith("description", {"sites"}))
-      .add(choiceKey("processes", processes,
-                     "Processes that take place; absent: all. Their names are those of docs/theory/pah.md.")
-               .list()
-               .optional())
-      .add(numberKey("rate_change",
-                     "Largest part by which a rate changes over a time in which rates are taken as constant; smaller "
-                     "is more accurate. Has a meaning where the gas changes.")
-               .byDefault("0.05")
-               .above(0)
-               .atMost(1))
-      .add(integerKey("repeats", "Number of molecules, each with random numbers of its own.")
-               .byDefault("1000")
-               .atLeast(2)
-               .atMost(1e9))
-      .add(integerKey("seed",
-                      "Start of the random numbers: another seed gives another sample, the same seed the same result.")
-               .byDefault("1")
-               .atLeast(0));
-  addPahRateKeys(schema);
-  addRowKeys(schema);
-  schema
-      .add(quantityKey("output.spectra", units::time, "Times of mass spectra besides that of the end.")
-               .list()
-               .optional())
-      .add(integerKey("output.molecules", "Number of molecules whose rings are written at the end, for pictures.")
-               .byDefault("12")
-               .atLeast(0)
-               .atMost(10000)
-               .onlyWith("description", {"lattice"}))
-      .add(booleanKey("output.closure",
-                      "Write closure.csv, the sites of all molecules at all rows and what is beside them, for "
-                      "'description: sites'.")
-               .byDefault("false")
-               .onlyWith("description", {"lattice"}))
-      .add(quantityKey("checkpoint.wall_time", units::time, "Wall time between two checkpoints.")
-               .byDefault("30 min")
-               .above(0))
-      .add(booleanKey("checkpoint.at_end",
-                      "Write a checkpoint at the end of the run too, from which it can go on to more repeats.")
-               .byDefault("false"));
-  return schema;
+               "or 'flame'.");
+  keys.quantity("gas.temperature", units::temperature, rules().optional().above(0),
+                "Temperature of a gas that stays as it is.");
+  keys.quantity("gas.pressure", units::pressure, rules().optional().above(0), "Pressure of a gas that stays as it is.");
+  keys.number("gas.mole_fractions.*", rules().optional().atLeast(0).atMost(1),
+              "Mole fraction of a species that molecules react with, one of H, H2, OH, H2O, O2, C2H2; all others take "
+              "no part and are not named.");
+  addGivenGasKeys(keys.schema());
+  keys.choice("description", {"lattice", "sites"}, rules().byDefault("lattice"),
+              "What is known of a molecule. lattice: where its rings are; sites: how many sites of each type it has, "
+              "what is beside them by a table of runs on the lattice (docs/theory/site_counting.md).");
+  keys.text("closure", rules().optional().onlyWith("description", {"sites"}),
+            "File of the table of neighbours that 'output.closure' of a run on the lattice has written, relative to "
+            "the deck. It belongs to gases like that run's.");
+  keys.choice("processes", processes, rules().list().optional(),
+              "Processes that take place; absent: all. Their names are those of docs/theory/pah.md.");
+  keys.number("rate_change", rules().byDefault("0.05").above(0).atMost(1),
+              "Largest part by which a rate changes over a time in which rates are taken as constant; smaller is more "
+              "accurate. Has a meaning where the gas changes.");
+  keys.schema().add(repeatKeys().schema());
+  addPahRateKeys(keys.schema());
+  addRowKeys(keys.schema());
+  keys.quantity("output.spectra", units::time, rules().list().optional(),
+                "Times of mass spectra besides that of the end.");
+  keys.integer("output.molecules",
+               rules().byDefault("12").atLeast(0).atMost(10000).onlyWith("description", {"lattice"}),
+               "Number of molecules whose rings are written at the end, for pictures.");
+  keys.boolean(
+      "output.closure", rules().byDefault("false").onlyWith("description", {"lattice"}),
+      "Write closure.csv, the sites of all molecules at all rows and what is beside them, for 'description: sites'.");
+  keys.schema().add(checkpointKeys().schema());
+  return keys.schema();
 }
 
 PahCase readPahCase(const Deck& deck) {
@@ -234,8 +213,8 @@ PahCase readPahCase(const Deck& deck) {
       throw InputError(error.what());
     }
   });
-  pah.repeats = deck.integer<std::uint64_t>("repeats");
-  pah.seed = deck.integer<std::uint64_t>("seed");
+  repeatKeys().read(deck, pah, "");
+  checkpointKeys().read(deck, pah, "checkpoint");
   if (deck.choice("description") == "sites") {
     if (!deck.has("closure")) throw deck.error("description", "sites need the key 'closure', a table of neighbours");
     pah.closure = deck.at("closure", [&] {
@@ -246,8 +225,6 @@ PahCase readPahCase(const Deck& deck) {
     pah.writesClosure = deck.boolean("output.closure");
     pah.drawn = std::min(deck.integer<std::size_t>("output.molecules"), static_cast<std::size_t>(pah.repeats));
   }
-  pah.checkpointInterval = deck.quantity("checkpoint.wall_time");
-  pah.checkpointAtEnd = deck.boolean("checkpoint.at_end");
   return pah;
 }
 

@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <filesystem>
 
-#include "app/problems/pah/growth_sums.hpp"
 #include "app/problems/pah/pah_case.hpp"
 #include "core/modules.hpp"
 #include "io/checkpoint_file.hpp"
 #include "io/checkpoint_folder.hpp"
+#include "particles/pah/growth_sums.hpp"
 
 namespace lampblack::app {
 

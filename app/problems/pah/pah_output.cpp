@@ -17,11 +17,11 @@ double leftBy(const PahCase& pah, const GrowthSums& sums, std::size_t row) {
 
 }  // namespace
 
-PahTable pahHistory(const PahCase& pah, const GrowthSums& sums) {
-  PahTable table{{{"time", "s", "time"},
-                  {"temperature", "K", "gas temperature"},
-                  {"left", "1", "part of the molecules that have more rings than molecule.most_rings"}},
-                 {}};
+Table pahHistory(const PahCase& pah, const GrowthSums& sums) {
+  Table table{{{"time", "s", "time"},
+               {"temperature", "K", "gas temperature"},
+               {"left", "1", "part of the molecules that have more rings than molecule.most_rings"}},
+              {}};
   const std::vector<Quantity>& quantities = growthQuantities();
   for (const Quantity& quantity : quantities) addRepeatColumns(quantity, table.columns);
   for (std::size_t row = 0; row < pah.recorded.size(); ++row) {
@@ -38,16 +38,16 @@ PahTable pahHistory(const PahCase& pah, const GrowthSums& sums) {
   return table;
 }
 
-PahTable pahSpectrum(const PahCase& pah, const GrowthSums& sums) {
-  PahTable table{{{"time", "s", "time"},
-                  {"carbon", "1", "carbon atoms"},
-                  {"hydrogen", "1", "hydrogen atoms"},
-                  {"mass", "kg/mol", "molar mass"},
-                  {"rings", "1", "rings of six and of five"},
-                  {"molecules", "1", "number of molecules of this formula"},
-                  {"fraction", "1", "part of all molecules, those that have left among them"},
-                  {"fraction_error", "1", "standard error of that part"}},
-                 {}};
+Table pahSpectrum(const PahCase& pah, const GrowthSums& sums) {
+  Table table{{{"time", "s", "time"},
+               {"carbon", "1", "carbon atoms"},
+               {"hydrogen", "1", "hydrogen atoms"},
+               {"mass", "kg/mol", "molar mass"},
+               {"rings", "1", "rings of six and of five"},
+               {"molecules", "1", "number of molecules of this formula"},
+               {"fraction", "1", "part of all molecules, those that have left among them"},
+               {"fraction_error", "1", "standard error of that part"}},
+              {}};
   const auto repeats = static_cast<double>(pah.repeats);
   for (const auto& [formula, count] : sums.formulas()) {
     const auto carbon = static_cast<double>(formula.carbon), hydrogen = static_cast<double>(formula.hydrogen);
@@ -60,8 +60,8 @@ PahTable pahSpectrum(const PahCase& pah, const GrowthSums& sums) {
   return table;
 }
 
-PahTable pahRateTable(const PahCase& pah) {
-  PahTable table{{{"time", "s", "time"}, {"temperature", "K", "gas temperature"}}, {}};
+Table pahRateTable(const PahCase& pah) {
+  Table table{{{"time", "s", "time"}, {"temperature", "K", "gas temperature"}}, {}};
   for (const PahProcessRow& row : pahProcesses)
     table.columns.push_back({row.name, "1/s", std::string("rate per site at which ") + row.description});
   for (std::size_t row = 0; row < pah.recorded.size(); ++row) {
@@ -89,12 +89,6 @@ void writeMolecules(ResultsWriter& results, const std::vector<Molecule>& molecul
     formulas.insert(formulas.end(), {static_cast<double>(molecule.carbon()), static_cast<double>(molecule.hydrogen())});
   results.table("/molecules/formulas",
                 {{"carbon", "1", "carbon atoms of repeat 0, 1, ..."}, {"hydrogen", "1", "hydrogen atoms"}}, formulas);
-}
-
-void recordPah(JsonWriter& json, const PahCase& pah, const GrowthSums& sums, const PahTable& history) {
-  json.field("repeats", pah.repeats).field("events", sums.events());
-  const std::size_t n = history.columns.size(), last = history.rows.size() - n;
-  for (std::size_t c = 1; c < n; ++c) json.field("final_" + history.columns[c].name, history.rows[last + c]);
 }
 
 }  // namespace lampblack::app

@@ -196,7 +196,7 @@ class PreparedPah : public PreparedRun {
   }
 
   void write(const RunFolder& folder, const RunInfo& info, const GrowthSums& sums, RunRecord& record) const {
-    const PahTable history = pahHistory(case_, sums), spectrum = pahSpectrum(case_, sums), rates = pahRateTable(case_);
+    const Table history = pahHistory(case_, sums), spectrum = pahSpectrum(case_, sums), rates = pahRateTable(case_);
     // They grow again, as their random numbers say.
     std::vector<Molecule> drawn;
     collectively(comm_, [&] {
@@ -212,19 +212,16 @@ class PreparedPah : public PreparedRun {
         writeFileAtomically(folder.file("closure.csv"), sums.closure().write(case_.title));
     });
     ResultsWriter results(comm_, folder.results(), info);
-    HistoryWriter rows(comm_, folder.history(), history.columns);
-    rows.row(history.rows);
-    rows.writeTo(results);
-    results.table("/spectrum", spectrum.columns, spectrum.rows);
-    results.table("/rates", rates.columns, rates.rows);
+    history.writeHistory(comm_, folder.history(), results);
+    spectrum.write(results, "/spectrum");
+    rates.write(results, "/rates");
     writeMolecules(results, drawn);
     results.close();
     if (rank_ != 0) return;
-    JsonWriter json;
-    json.beginObject();
-    recordPah(json, case_, sums, history);
-    json.endObject();
-    record.resultsJson = json.text();
+    record.resultsJson = jsonObject([&](JsonWriter& json) {
+      json.field("repeats", case_.repeats).field("events", sums.events());
+      history.recordLast(json);
+    });
     const std::size_t last = case_.recorded.size() - 1;
     fmt::print("C {:.5g} +- {:.2g}, H {:.5g} +- {:.2g}, {} of {} molecules, {:.4g} events\n", sums.mean(last, 0),
                sums.standardError(last, 0), sums.mean(last, 1), sums.standardError(last, 1), sums.count(last),

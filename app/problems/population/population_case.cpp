@@ -8,7 +8,6 @@
 #include "app/problems/population/population_case_parts.hpp"
 #include "core/errors.hpp"
 #include "io/deck_keys.hpp"
-#include "particles/population/monte_carlo/shipped_types.hpp"
 
 namespace lampblack::app {
 
@@ -37,8 +36,7 @@ DeckKeys<PopulationCase> timeKeys() {
                 "Time at which the run ends, from zero.");
   keys.integer("time.outputs", time(&PopulationTimes::outputs), rules().atLeast(1).atMost(100000),
                "Rows of the histories after that at time zero.");
-  keys.other("time.spacing", KeyType::choice, choiceKey("", {"linear", "logarithmic"}, "").byDefault("linear"),
-             "Spacing of the rows in time.");
+  keys.choice("time.spacing", {"linear", "logarithmic"}, rules().byDefault("linear"), "Spacing of the rows in time.");
   keys.quantity("time.first", units::time, time(&PopulationTimes::first),
                 rules().optional().above(0).onlyWith("time.spacing", {"logarithmic"}),
                 "Time of the first row after that at time zero.");
@@ -103,50 +101,6 @@ PopulationBins readBins(const Deck& deck, double end) {
 }
 
 }  // namespace
-
-std::vector<double> PopulationTimes::rows() const {
-  std::vector<double> rows{0};
-  for (std::size_t k = 1; k < outputs; ++k) {
-    if (first > 0)
-      rows.push_back(first * std::pow(end / first, static_cast<double>(k - 1) / static_cast<double>(outputs - 1)));
-    else
-      rows.push_back(end * static_cast<double>(k) / static_cast<double>(outputs));
-  }
-  rows.push_back(end);
-  return rows;
-}
-
-bool PopulationCase::conservesMass() const {
-  const GrowthOptions& growth = model.growth;
-  const bool grows = growth.condensation != 0 || growth.surfaceGrowth != 0 || growth.oxidation != 0;
-  return !model.nucleation && !model.deposition && !grows && model.dilution == 0;
-}
-
-std::unique_ptr<ExactSolution> exactSolution(const PopulationCase& populationCase) {
-  const PopulationModel& model = populationCase.model;
-  // The solutions of kernels and growth that see a diameter or a surface are those of spheres; sintering changes no
-  // volume.
-  const bool sees =
-      model.growth.surface() != 0 || (model.coagulation && CollisionKernel(*model.coagulation).needsDiameter());
-  if (sees && !std::holds_alternative<Sphere>(populationCase.particles)) return nullptr;
-  PopulationModel volumes = model;
-  volumes.growth.always = false;
-  return exactSolution(volumes, populationCase.initial);
-}
-
-std::unique_ptr<PopulationSolver> makeSolver(const PopulationCase& populationCase, const PopulationMethod& method,
-                                             std::uint64_t repeat) {
-  const PopulationModel& model = populationCase.model;
-  const InitialPopulation& initial = populationCase.initial;
-  if (const auto* sections = std::get_if<SectionalOptions>(&method.options))
-    return makeSectional(model, initial, *sections);
-  if (const auto* moments = std::get_if<MomentOptions>(&method.options)) return makeMoments(model, initial, *moments);
-  MonteCarloOptions options = std::get<MonteCarloOptions>(method.options);
-  options.seed = populationCase.seed;
-  options.repeat = repeat;
-  return std::visit([&](const auto& type) { return makeMonteCarlo(type, model, initial, options); },
-                    populationCase.particles);
-}
 
 DeckSchema populationcase::outputKeys() {
   return DeckSchema(timeKeys().schema()).add(binsKeys().schema());

@@ -63,9 +63,9 @@ DeckKeys<CollisionKernelOptions> coagulationKeys() {
               rules().required(),
               "constant: A, additive: A (u + v), multiplicative: A u v, with the volumes u and v; transition: "
               "harmonic mean of free-molecular and continuum; transition_fuchs: interpolation of Fuchs.");
-  keys.other("rate", KeyType::string, with(withRate),
-             "A of the first three kernels, with its unit: m^3/s (constant), 1/s (additive), 1/(m^3 s) "
-             "(multiplicative).");
+  keys.text("rate", with(withRate),
+            "A of the first three kernels, with its unit: m^3/s (constant), 1/s (additive), 1/(m^3 s) "
+            "(multiplicative).");
   keys.number("efficiency", &Options::efficiency, rules().above(0).atMost(1), "Probability that a collision sticks.");
   keys.quantity("efficiency_diameter", units::length, &Options::efficiencyDiameter, rules().optional().above(0),
                 "Below about this diameter of the smaller particle collisions stick less: the efficiency is "
@@ -154,8 +154,8 @@ void addSizeDependentRate(DeckKeys<Options>& keys, const std::string& what) {
                 what + " of a particle of reference_volume.");
   keys.number("exponent", &Options::exponent, rules(),
               "Exponent e of the volume v in the rate, rate (v / reference_volume)^e.");
-  keys.other("reference_volume", KeyType::quantity, quantityKey("", units::volume, "").byDefault("1 m^3").above(0),
-             "Volume of a particle that has just the rate; of no effect where the exponent is 0.");
+  keys.quantity("reference_volume", units::volume, rules().byDefault("1 m^3").above(0),
+                "Volume of a particle that has just the rate; of no effect where the exponent is 0.");
 }
 
 DeckKeys<BreakageOptions> breakageKeys() {
@@ -276,15 +276,19 @@ PopulationParticles readParticles(const Deck& deck, PopulationModel& model) {
 }
 
 void addProcessKeys(DeckSchema& schema) {
-  schema.add(coagulationKeys().schema()).add(nucleationKeys().schema());
-  addParticleSize(schema, nucleationKeys().path(), "of a nucleus");
-  schema.add(breakageKeys().schema()).add(growthKeys().schema()).add(depositionKeys().schema());
-  schema
-      .section("processes.dilution", Presence::optional,
-               "All number densities fall at this rate, as where the gas expands; negative: compression.")
-      .add(quantityKey("processes.dilution.rate", units::frequency,
-                       "Relative rate at which all number densities fall as the gas expands, dn/dt = -rate n; "
-                       "negative: compression."));
+  SectionKeys keys("processes");
+  keys.schema().add(coagulationKeys().schema());
+  keys.schema().add(nucleationKeys().schema());
+  addParticleSize(keys.schema(), nucleationKeys().path(), "of a nucleus");
+  keys.schema().add(breakageKeys().schema());
+  keys.schema().add(growthKeys().schema());
+  keys.schema().add(depositionKeys().schema());
+  keys.section("dilution", Presence::optional,
+               "All number densities fall at this rate, as where the gas expands; negative: compression.");
+  keys.quantity(
+      "dilution.rate", units::frequency, rules(),
+      "Relative rate at which all number densities fall as the gas expands, dn/dt = -rate n; negative: compression.");
+  schema.add(keys.schema());
 }
 
 PopulationModel readModel(const Deck& deck) {

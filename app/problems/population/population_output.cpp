@@ -40,7 +40,7 @@ void writeHistory(ResultsWriter& results, const std::string& path, const Populat
 }
 
 void writeMoments(ResultsWriter& results, const std::string& path, const std::string& prefix, bool units,
-                  const std::string& what, const std::vector<double>& times, const std::vector<Moments>& values) {
+                  const std::string& what, const std::vector<double>& times, const std::vector<FourMoments>& values) {
   std::vector<Quantity> columns{{"time", "s", "time"}};
   addMoments(columns, prefix, units, what);
   std::vector<double> rows;
@@ -106,7 +106,7 @@ void writePopulation(ResultsWriter& results, const PopulationCase& populationCas
   for (std::size_t m = 0; m < populationCase.methods.size(); ++m) {
     const MethodStatistics* method = m < statistics.methods.size() ? &statistics.methods[m] : nullptr;
     const std::string group = "/methods/" + populationCase.methods[m].name;
-    static const MethodStatistics nothing;
+    static const MethodStatistics nothing{};
     const MethodStatistics& made = method != nullptr ? *method : nothing;
     writeHistory(results, group + "/history", statistics, method);
     writeMoments(results, group + "/sigma", "sigma_", false,
@@ -134,7 +134,7 @@ std::string populationTable(const PopulationStatistics& statistics) {
     } else {
       const std::size_t last = method.mean.size() - 1;
       text += fmt::format(",{},{}", cell(method.particles[last]), statistics.rows[last]);
-      for (const Moments& values :
+      for (const FourMoments& values :
            {method.mean[last], method.error[last], method.deviation, method.z, method.sigma[last]})
         for (const double value : values) text += fmt::format(",{}", cell(value));
       text += fmt::format(",{},{},{}", cell(method.geometricDeviation[last]),
@@ -148,7 +148,7 @@ std::string populationTable(const PopulationStatistics& statistics) {
 }
 
 void recordPopulation(JsonWriter& json, const PopulationStatistics& statistics) {
-  const auto moments = [&](const char* name, const Moments& values) {
+  const auto moments = [&](const char* name, const FourMoments& values) {
     json.key(name).beginArray();
     for (const double value : values) json.value(value);
     json.endArray();
@@ -196,7 +196,7 @@ std::string populationSummary(const PopulationCase& populationCase, const Popula
     for (const MethodStatistics& method : statistics.methods) {
       if (method.deterministic) continue;
       const double none = std::nan("");
-      const Moments sigma = method.sigma.empty() ? Moments{none, none, none, none} : method.sigma.back();
+      const FourMoments sigma = method.sigma.empty() ? FourMoments{none, none, none, none} : method.sigma.back();
       text += fmt::format("{:<{}} {:>9}", method.name, width,
                           field(method.particles.empty() ? none : method.particles.back(), "{:.0f}"));
       for (const double z : method.z) text += fmt::format(" {:>7}", field(z, "{:.2f}"));
@@ -214,9 +214,9 @@ std::string populationSummary(const PopulationCase& populationCase, const Popula
     if (!method.deterministic) continue;
     text += fmt::format("{:<{}} {:>9}", method.name, width, method.mean.empty() ? 0 : method.particles.back());
     const double none = std::nan("");
-    const Moments values = method.mean.empty() ? Moments{none, none, none, none}
-                           : known             ? method.deviation
-                                               : method.mean.back();
+    const FourMoments values = method.mean.empty() ? FourMoments{none, none, none, none}
+                               : known             ? method.deviation
+                                                   : method.mean.back();
     for (const double value : values) text += fmt::format(" {:>10}", field(value, known ? "{:.2e}" : "{:.4e}"));
     text += fmt::format(" {:>9}  {}\n", field(method.secondsPerRepeat, "{:.3g}"), method.verdict);
   }

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <string>
 
-#include "app/problems/population/population_statistics.hpp"
 #include "core/modules.hpp"
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
+#include "particles/population/comparison/comparison.hpp"
 
 namespace lampblack::app {
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/run/warnings.hpp"
+
 namespace lampblack::app {
 namespace {
 
@@ -25,6 +27,14 @@ void PopulationProgress::at(const PopulationMethod& method, std::uint64_t repeat
   const std::uint64_t repeats = method.deterministic() ? 1 : case_.repeats;
   progress_.say(fmt::format("{}, repeat {} of {}, t {:.4g} s", method.name, repeat + 1, repeats, time),
                 static_cast<double>(ended_) + time / case_.times.end);
+}
+
+PopulationStatistics runAndTell(MPI_Comm comm, const PopulationCase& populationCase) {
+  PopulationProgress progress(comm, populationCase);
+  PopulationStatistics statistics = runPopulation(comm, populationCase, progress);
+  progress.finish();
+  if (!statistics.exact.limit.empty()) printWarnings({statistics.exact.limit});
+  return statistics;
 }
 
 }  // namespace lampblack::app

@@ -5,19 +5,18 @@
 
 #include <cstdint>
 
-#include "app/problems/population/population_case.hpp"
 #include "core/modules.hpp"
 #include "io/progress.hpp"
+#include "particles/population/comparison/comparison.hpp"
 
 namespace lampblack::app {
 
-class PopulationProgress {
+class PopulationProgress : public RepeatProgress {
  public:
   PopulationProgress(MPI_Comm comm, const PopulationCase& populationCase);
 
-  // Where a repeat is, at a time in s.
-  void at(const PopulationMethod& method, std::uint64_t repeat, double time);
-  void repeatEnded() { ++ended_; }
+  void at(const PopulationMethod& method, std::uint64_t repeat, double time) override;
+  void repeatEnded() override { ++ended_; }
   // Before other output.
   void finish() { progress_.finish(); }
 
@@ -26,5 +25,8 @@ class PopulationProgress {
   Progress progress_;
   std::uint64_t ended_ = 0;  // repeats of this rank
 };
+
+// Collective: runPopulation() that says how far it is, and warns of what is not compared.
+PopulationStatistics runAndTell(MPI_Comm comm, const PopulationCase& populationCase);
 
 }  // namespace lampblack::app

@@ -7,10 +7,12 @@
 
 #include "app/problems/population/population_case.hpp"
 #include "app/problems/population/population_output.hpp"
-#include "app/problems/population/population_statistics.hpp"
+#include "app/problems/population/population_progress.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
+#include "io/table.hpp"
+#include "particles/population/comparison/comparison.hpp"
 #include "particles/population/gelation_error.hpp"
 
 namespace lampblack::app {
@@ -46,19 +48,15 @@ class PreparedPopulation : public PreparedRun {
     MPI_Comm_rank(comm_, &rank);
     recordedRun(
         comm_, deck_, options, case_.seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-          const PopulationStatistics statistics = runPopulation(comm_, case_);
+          const PopulationStatistics statistics = runAndTell(comm_, case_);
           collectively(comm_, [&] {
             if (rank != 0) return;
             writeFileAtomically(folder.file("table.csv"), populationTable(statistics));
-            JsonWriter json;
-            json.beginObject();
-            recordPopulation(json, statistics);
-            json.endObject();
-            record.resultsJson = json.text();
+            record.resultsJson = jsonObject([&](JsonWriter& json) { recordPopulation(json, statistics); });
             record.simulatedTime = case_.times.end;
             for (const MethodStatistics& method : statistics.methods) {
               record.steps += static_cast<std::int64_t>(method.counters.events());
-              record.stages.push_back(method.stage);
+              record.stages.push_back({method.stage.name, method.stage.least, method.stage.mean, method.stage.most});
             }
           });
           ResultsWriter results(comm_, folder.results(), info);

@@ -9,6 +9,7 @@
 #include "core/errors.hpp"
 #include "coupling/flame_trajectory.hpp"
 #include "coupling/given_gas.hpp"
+#include "io/deck_keys.hpp"
 #include "io/hdf5_reader.hpp"
 #include "io/request_limits.hpp"
 
@@ -39,39 +40,32 @@ ParticlePath throughFlame(const Deck& deck, const Mechanism& mechanism, const st
 }  // namespace
 
 void addGivenGasKeys(DeckSchema& schema) {
-  schema
-      .add(stringKey("gas.file",
-                     "CSV file with columns time, temperature, pressure and X_<species> (mole fractions), units in "
-                     "brackets, as \"time [ms]\", or in SI; the particles move with the gas, but for a column "
-                     "number_loss_rate (1/s), "
-                     "the rate at which particles per kg of gas become fewer. "
-                     "Tables of a flow's streamlines are such (trajectories.gas_tables). Relative to the deck.")
-               .optional())
-      .add(stringKey(
-               "gas.flame",
-               "Results file (results.h5) of a run with problem: flame1d and the same mechanism; the particles move "
-               "with the gas and by thermophoresis, on the axis of the flame. Relative to the deck.")
-               .optional())
-      .add(choiceKey("gas.side", {"left", "right"}, "The end of the flame that the particles come from.")
-               .byDefault("left"))
-      .add(quantityKey("gas.start", units::length,
-                       "Position of the flame's grid from which on the particles are followed; absent: its end.")
-               .optional()
-               .atLeast(0))
-      .add(quantityKey("gas.minimum_velocity", units::velocity,
-                       "Speed of the particles below which a path through a flame ends, near the stagnation plane.")
-               .formerly("slowest")
-               .byDefault("1 mm/s")
-               .above(0))
-      .add(quantityKey("gas.end", units::time, "Time at which the run ends; absent: the last of the gas.").optional());
+  SectionKeys keys("gas");
+  keys.text("file", rules().optional(),
+            "CSV file with columns time, temperature, pressure and X_<species> (mole fractions), units in brackets, as "
+            "\"time [ms]\", or in SI; the particles move with the gas, but for a column number_loss_rate (1/s), the "
+            "rate at which particles per kg of gas become fewer. Tables of a flow's streamlines are such "
+            "(trajectories.gas_tables). Relative to the deck.");
+  keys.text("flame", rules().optional(),
+            "Results file (results.h5) of a run with problem: flame1d and the same mechanism; the particles move with "
+            "the gas and by thermophoresis, on the axis of the flame. Relative to the deck.");
+  keys.choice("side", {"left", "right"}, rules().byDefault("left"),
+              "The end of the flame that the particles come from.");
+  keys.quantity("start", units::length, rules().optional().atLeast(0),
+                "Position of the flame's grid from which on the particles are followed; absent: its end.");
+  keys.quantity("minimum_velocity", units::velocity, rules().formerly("slowest").byDefault("1 mm/s").above(0),
+                "Speed of the particles below which a path through a flame ends, near the stagnation plane.");
+  keys.quantity("end", units::time, rules().optional(), "Time at which the run ends; absent: the last of the gas.");
+  schema.add(keys.schema());
 }
 
 void addRowKeys(DeckSchema& schema) {
-  schema.section("output", Presence::defaulted, "Rows of the history.")
-      .add(quantityKey("output.interval", units::time, "Time between rows; absent: a hundredth of the run.")
-               .optional()
-               .above(0))
-      .add(quantityKey("output.times", units::time, "Times with rows besides.").list().optional());
+  SectionKeys keys("output");
+  keys.section(Presence::defaulted, "Rows of the history.");
+  keys.quantity("interval", units::time, rules().optional().above(0),
+                "Time between rows; absent: a hundredth of the run.");
+  keys.quantity("times", units::time, rules().list().optional(), "Times with rows besides.");
+  schema.add(keys.schema());
 }
 
 void requireOneGas(const Deck& deck) {

@@ -20,8 +20,8 @@ void appendGas(const PrescribedGasCase& along, std::size_t row, std::vector<doub
 
 }  // namespace
 
-PrescribedGasTable historyOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
-  PrescribedGasTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
+Table historyOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
+  Table table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
   for (const Quantity& column : ensemble.columns) addRepeatColumns(column, table.columns);
   const RepeatIntervals intervals(along.ensemble->repeats);
   for (std::size_t row = 0; row < along.recorded.size(); ++row) {
@@ -31,8 +31,8 @@ PrescribedGasTable historyOf(const PrescribedGasCase& along, const PathEnsemble&
   return table;
 }
 
-PrescribedGasTable historyOf(const PrescribedGasCase& along, const ModelAlong& model) {
-  PrescribedGasTable table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
+Table historyOf(const PrescribedGasCase& along, const ModelAlong& model) {
+  Table table{{std::begin(gasColumns), std::end(gasColumns)}, {}};
   const std::string material = along.model->material() + "_";
   for (const auto& p : particlePropertyNames) table.columns.push_back({material + p.name, p.unit, p.description});
   for (const auto& p : particleProcessNames) table.columns.push_back({material + p.name, p.unit, p.description});
@@ -55,8 +55,8 @@ PrescribedGasTable historyOf(const PrescribedGasCase& along, const ModelAlong& m
   return table;
 }
 
-PrescribedGasTable ratesOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
-  PrescribedGasTable table{{{"from", "s", "begin of the interval"}, {"to", "s", "end of the interval"}}, {}};
+Table ratesOf(const PrescribedGasCase& along, const PathEnsemble& ensemble) {
+  Table table{{{"from", "s", "begin of the interval"}, {"to", "s", "end of the interval"}}, {}};
   for (const auto& [name, unit, description] : ensemble.processes)
     addRepeatColumns({name, unit + "/s", description}, table.columns);
   const RepeatIntervals intervals(along.ensemble->repeats);
@@ -94,12 +94,6 @@ void writeDistributions(ResultsWriter& results, const ModelAlong& model) {
   results.dataset("/particles/diameter", {sizes}, diameter, "m", "diameters of the size distribution");
   results.dataset("/particles/size_distribution", {rows, sizes}, density, "1/m^3",
                   "dN/dlog10 d of each row of the history");
-}
-
-void recordPrescribedGas(JsonWriter& json, const PrescribedGasTable& history) {
-  const std::size_t n = history.columns.size();
-  for (std::size_t c = 1; c < n; ++c)
-    json.field("final_" + history.columns[c].name, history.rows[history.rows.size() - n + c]);
 }
 
 void recordCounts(JsonWriter& json, const PathEnsemble& ensemble) {

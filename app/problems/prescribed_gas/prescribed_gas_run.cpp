@@ -70,12 +70,6 @@ class PreparedPrescribedGas : public PreparedRun {
   }
 
  private:
-  void writeHistory(const RunFolder& folder, ResultsWriter& results, const PrescribedGasTable& table) const {
-    HistoryWriter history(comm_, folder.history(), table.columns);
-    history.row(table.rows);
-    history.writeTo(results);
-  }
-
   void runEnsemble(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
     const PopulationRequest& request = *case_.ensemble;
     PathMarch march;
@@ -84,9 +78,9 @@ class PreparedPrescribedGas : public PreparedRun {
     const PathEnsemble ensemble =
         runPathEnsemble(comm_, case_.path, request.make, 0, request.repeats, march, "stochastic particles");
     ResultsWriter results(comm_, folder.results(), info);
-    const PrescribedGasTable history = historyOf(case_, ensemble), rates = ratesOf(case_, ensemble);
-    writeHistory(folder, results, history);
-    results.table("/rates", rates.columns, rates.rows);
+    const Table history = historyOf(case_, ensemble), rates = ratesOf(case_, ensemble);
+    history.writeHistory(comm_, folder.history(), results);
+    rates.write(results, "/rates");
     writeDistributions(results, case_, ensemble);
     results.close();
     record.steps = static_cast<std::int64_t>(ensemble.count("split_steps"));
@@ -105,14 +99,14 @@ class PreparedPrescribedGas : public PreparedRun {
 
   void runModel(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
     ModelAlong model;
-    PrescribedGasTable history;
+    Table history;
     collectively(comm_, [&] {
       if (rank_ == 0) model = marchModel(*case_.model, case_.path, case_.recorded, case_.depleted);
       if (rank_ == 0) requireSizeRangeCovered(model);
     });
     history = historyOf(case_, model);
     ResultsWriter results(comm_, folder.results(), info);
-    writeHistory(folder, results, history);
+    history.writeHistory(comm_, folder.history(), results);
     int hasSizes = model.records.empty() ? 0 : static_cast<int>(!model.records[0].sizes.diameter.empty());
     MPI_Bcast(&hasSizes, 1, MPI_INT, 0, comm_);
     if (hasSizes != 0) writeDistributions(results, model);
@@ -139,14 +133,12 @@ class PreparedPrescribedGas : public PreparedRun {
   }
 
   template <class More>
-  void finish(RunRecord& record, const PrescribedGasTable& history, const More& more) const {
+  void finish(RunRecord& record, const Table& history, const More& more) const {
     if (rank_ != 0) return;
-    JsonWriter json;
-    json.beginObject();
-    more(json);
-    recordPrescribedGas(json, history);
-    json.endObject();
-    record.resultsJson = json.text();
+    record.resultsJson = jsonObject([&](JsonWriter& json) {
+      more(json);
+      history.recordLast(json);
+    });
   }
 
   MPI_Comm comm_;

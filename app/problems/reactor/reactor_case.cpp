@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 
 #include "app/deck/gas_input.hpp"
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/problems/reactor/reactor_case_parts.hpp"
+#include "app/problems/reactor/reactor_driver.hpp"
 #include "app/problems/reactor/reactor_particle_output.hpp"
 #include "core/errors.hpp"
 #include "io/request_limits.hpp"
@@ -101,9 +101,32 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
   checkInterval(deck, "output.spacing", reactorCase, reactorCase.length, "reactor.length");
 }
 
-}  // namespace
+// Stirred reactors: the end is known, or zero.
+void checkTimes(const Deck& deck, const ReactorCase& reactorCase) {
+  if (reactorCase.end == 0)
+    refuseTimes(deck);
+  else
+    checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
+}
 
-namespace {
+void readStirred(const Deck& deck, ReactorCase& reactorCase) {
+  reactorcase::readStirred(deck, reactorCase);
+  checkTimes(deck, reactorCase);
+}
+
+void readNetwork(const Deck& deck, ReactorCase& reactorCase) {
+  reactorcase::readNetwork(deck, reactorCase);
+  reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
+  if (reactorCase.end > 0 && !hasPopulation(deck))
+    throw deck.error("time.end",
+                     "the steady state of a network is computed; only with an ensemble or trees of 'particles' "
+                     "is it followed in time");
+  checkTimes(deck, reactorCase);
+}
+
+std::unique_ptr<ReactorDriver> stirredDriver(const ReactorCase& reactorCase) {
+  return reactorCase.end > 0 ? stirredTransientDriver(reactorCase) : steadyNetworkDriver(reactorCase);
+}
 
 // Rows are kept until the end: `range` is the time or length of the run.
 void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& reactorCase, double range) {
@@ -138,47 +161,46 @@ void readParticles(const Deck& deck, ReactorCase& reactorCase) {
 
 }  // namespace
 
+DeckKeys<StiffIntegrator::Options> reactorcase::integratorKeys() {
+  using Options = StiffIntegrator::Options;
+  DeckKeys<Options> keys("integrator");
+  keys.section(Presence::defaulted, "The stiff solver of everything but steady states.");
+  keys.number("relative_tolerance", &Options::relativeTolerance, rules().byDefault("1e-9").above(0).below(1),
+              "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.");
+  keys.number("absolute_tolerance", &Options::absoluteTolerance, rules().byDefault("1e-15").above(0).below(1),
+              "Absolute tolerance of the stiff solver of the chemistry, in mass fraction: smaller is more accurate and "
+              "slower.");
+  keys.integer("maximum_steps", &Options::maximumSteps, rules().byDefault("1000000").above(0),
+               "Number of steps of the integrator after which the run gives up.");
+  return keys;
+}
+
+const std::vector<ReactorKind>& reactorKinds() {
+  using Type = ReactorType;
+  static const std::vector<ReactorKind> kinds{
+      {"constant_pressure", Type::ConstantPressure, readClosed, closedReactorDriver},
+      {"constant_volume", Type::ConstantVolume, readClosed, closedReactorDriver},
+      {"given_volume", Type::GivenVolume, readClosed, closedReactorDriver},
+      {"stirred", Type::Stirred, readStirred, stirredDriver},
+      {"plug_flow", Type::PlugFlow, readPlugFlow, plugFlowDriver},
+      {"network", Type::Network, readNetwork, steadyNetworkDriver}};
+  return kinds;
+}
+
 ReactorCase readReactorCase(const Deck& deck) {
   ReactorCase reactorCase;
   const std::string type = deck.choice("reactor.type");
   checkEnergy(deck, type);
   reactorCase.title = deck.string("title");
   reactorCase.mechanism = readMechanism(deck);
-  reactorCase.integrator = {deck.number("integrator.relative_tolerance"), deck.number("integrator.absolute_tolerance"),
-                            deck.optionalQuantity("time.maximum_step").value_or(0.0),
-                            deck.integer<long>("integrator.maximum_steps")};
+  reactorCase.integrator = reactorcase::integratorKeys().read(deck);
+  reactorCase.integrator.maximumStep = deck.optionalQuantity("time.maximum_step").value_or(0.0);
   reactorCase.output = {deck.optionalQuantity("output.interval"),
                         readSpeciesList(deck, "output.species", *reactorCase.mechanism),
                         deck.choice("output.fractions") == "mass"};
-  static const std::map<std::string, ReactorType> closed{{"constant_pressure", ReactorType::ConstantPressure},
-                                                         {"constant_volume", ReactorType::ConstantVolume},
-                                                         {"given_volume", ReactorType::GivenVolume}};
-  if (const auto found = closed.find(type); found != closed.end()) {
-    reactorCase.type = found->second;
-    readClosed(deck, reactorCase);
-  } else if (type == "plug_flow") {
-    reactorCase.type = ReactorType::PlugFlow;
-    readPlugFlow(deck, reactorCase);
-  } else if (type == "stirred") {
-    reactorCase.type = ReactorType::Stirred;
-    reactorcase::readStirred(deck, reactorCase);
-    if (reactorCase.end == 0)
-      refuseTimes(deck);
-    else
-      checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
-  } else {
-    reactorCase.type = ReactorType::Network;
-    reactorcase::readNetwork(deck, reactorCase);
-    reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
-    if (reactorCase.end == 0)
-      refuseTimes(deck);
-    else if (!hasPopulation(deck))
-      throw deck.error("time.end",
-                       "the steady state of a network is computed; only with an ensemble or trees of 'particles' "
-                       "is it followed in time");
-    else
-      checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
-  }
+  const ReactorKind& kind = *std::ranges::find(reactorKinds(), type, &ReactorKind::name);
+  reactorCase.type = kind.type;
+  kind.read(deck, reactorCase);
   readParticles(deck, reactorCase);
   const bool plugFlow = reactorCase.type == ReactorType::PlugFlow;
   refuseRows(deck, plugFlow ? "output.spacing" : "output.interval", reactorCase,

@@ -3,6 +3,7 @@
 
 #include "app/problems/reactor/reactor_case.hpp"
 #include "core/modules.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app::reactorcase {
 
@@ -14,6 +15,11 @@ void readSensitivity(const Deck& deck, ReactorCase& reactorCase);
 void addVolumeKeys(DeckSchema& schema);
 void readVolume(const Deck& deck, ReactorCase& reactorCase);
 
+DeckKeys<StiffIntegrator::Options> integratorKeys();
+
+// What a stirred reactor has in this section, alone or in a network, with this reactor.type; the section network.
+void addVesselKeys(DeckSchema& schema, const std::string& section, const std::string& type);
+void addNetworkKeys(DeckSchema& schema);
 // A stirred reactor (the sections reactor and inlet) and a network (the section network).
 void readStirred(const Deck& deck, ReactorCase& reactorCase);
 void readNetwork(const Deck& deck, ReactorCase& reactorCase);

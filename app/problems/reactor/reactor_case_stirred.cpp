@@ -8,22 +8,36 @@
 #include "app/problems/reactor/reactor_case_parts.hpp"
 #include "core/errors.hpp"
 #include "core/nearest_name.hpp"
+#include "io/deck_keys.hpp"
 #include "numerics/dense_lu.hpp"
 
 namespace lampblack::app::reactorcase {
 namespace {
 
+// What a stirred reactor has, alone or in a network.
+DeckKeys<StirredReactor> vesselKeys(const std::string& section, const std::string& type = "") {
+  DeckKeys<StirredReactor> keys(section);
+  keys.quantity("volume", units::volume, &StirredReactor::volume,
+                rules().optional().above(0).onlyWith("reactor.type", {type}),
+                "Volume of the reactor; either this or residence_time.");
+  keys.quantity(
+      "residence_time", units::time, &StirredReactor::residenceTime,
+      rules().optional().above(0).onlyWith("reactor.type", {type}),
+      "Residence time, the mass inside over the mass flow; the volume follows from it. Either this or volume.");
+  keys.section("heat_loss", Presence::optional, "Where there is an energy equation.", {{"reactor.type", {type}}});
+  keys.quantity("heat_loss.conductance", units::watt / units::temperature, &StirredReactor::conductance,
+                rules().required().atLeast(0),
+                "Heat lost per time and kelvin above the surroundings, in W/K: bigger cools more.");
+  keys.quantity("heat_loss.surroundings", units::temperature, &StirredReactor::surroundings,
+                rules().atLeast(0).byDefault("300 K"), "Temperature of the surroundings that heat is lost to.");
+  return keys;
+}
+
 StirredReactor readVessel(const Deck& deck, const std::string& section, std::string name) {
-  StirredReactor reactor;
+  StirredReactor reactor = vesselKeys(section).read(deck);
   reactor.name = std::move(name);
-  reactor.volume = deck.optionalQuantity(section + ".volume");
-  reactor.residenceTime = deck.optionalQuantity(section + ".residence_time");
   if (reactor.volume.has_value() == reactor.residenceTime.has_value())
     throw deck.error(section, "a stirred reactor needs either 'volume' or 'residence_time'");
-  if (deck.has(section + ".heat_loss")) {
-    reactor.conductance = deck.quantity(section + ".heat_loss.conductance");
-    reactor.surroundings = deck.quantity(section + ".heat_loss.surroundings");
-  }
   return reactor;
 }
 
@@ -47,21 +61,33 @@ std::size_t reactorNamed(const Deck& deck, const std::string& key, const Reactor
 // A connection of the deck: a share of what flows through a reactor, or a mass flow.
 struct Connection {
   std::size_t from = 0, to = 0;
-  double fraction = 0, massFlow = 0;
+  std::optional<double> fraction, massFlow;
+
+  // kg/s, of so much that flows through the reactor it leaves.
+  [[nodiscard]] double flow(double through) const { return massFlow ? *massFlow : fraction.value_or(1.0) * through; }
 };
+
+DeckKeys<Connection> connectionKeys() {
+  DeckKeys<Connection> keys("network.connections[]");
+  keys.number("fraction", &Connection::fraction, rules().optional().above(0).atMost(1),
+              "Part of all that flows through the reactor it leaves that takes this connection; 1 if neither this nor "
+              "mass_flow is given.");
+  keys.quantity("mass_flow", units::massFlow, &Connection::massFlow, rules().optional().above(0),
+                "Mass flow of the connection, in place of a fraction.");
+  return keys;
+}
 
 std::vector<Connection> readConnections(const Deck& deck, const ReactorNetwork& network) {
   std::vector<Connection> connections;
   for (std::size_t i = 0; i < deck.size("network.connections"); ++i) {
     const std::string item = fmt::format("network.connections[{}]", i);
-    Connection connection{reactorNamed(deck, item + ".from", network), reactorNamed(deck, item + ".to", network)};
-    const auto fraction = deck.optionalNumber(item + ".fraction");
-    const auto massFlow = deck.optionalQuantity(item + ".mass_flow");
-    if (fraction && massFlow) throw deck.error(item, "expected 'fraction' or 'mass_flow', found both");
+    Connection connection = connectionKeys().read(deck, item);
+    connection.from = reactorNamed(deck, item + ".from", network);
+    connection.to = reactorNamed(deck, item + ".to", network);
+    if (connection.fraction && connection.massFlow)
+      throw deck.error(item, "expected 'fraction' or 'mass_flow', found both");
     if (connection.from == connection.to)
       throw deck.error(item, "this connection leads from a reactor to itself; expected another reactor");
-    connection.massFlow = massFlow.value_or(0.0);
-    if (!massFlow) connection.fraction = fraction.value_or(1.0);
     connections.push_back(connection);
   }
   return connections;
@@ -77,8 +103,8 @@ std::vector<double> balancedFlows(const Deck& deck, const ReactorNetwork& networ
   for (std::size_t r = 0; r < count; ++r) lu.column(r)[r] = 1.0;
   for (const InflowStream& stream : network.inflows) flow[stream.to] += stream.massFlow;
   for (const Connection& connection : connections) {
-    lu.column(connection.from)[connection.to] -= connection.fraction;
-    flow[connection.to] += connection.massFlow;
+    if (!connection.massFlow) lu.column(connection.from)[connection.to] -= connection.fraction.value_or(1.0);
+    flow[connection.to] += connection.massFlow.value_or(0.0);
   }
   if (!lu.factorise())
     throw deck.error("network.connections", "the mass flows have no balance: a loop lets nothing out");
@@ -88,7 +114,7 @@ std::vector<double> balancedFlows(const Deck& deck, const ReactorNetwork& networ
     if (!(flow[r] > 0)) throw deck.error(key, "nothing flows into this reactor");
     double out = 0;
     for (const Connection& connection : connections)
-      if (connection.from == r) out += connection.fraction * flow[r] + connection.massFlow;
+      if (connection.from == r) out += connection.flow(flow[r]);
     if (out > flow[r] * (1 + 1e-9))
       throw deck.error(key, fmt::format("{:.6g} kg/s leave this reactor by its connections, but only {:.6g} kg/s flow "
                                         "through it",
@@ -98,6 +124,31 @@ std::vector<double> balancedFlows(const Deck& deck, const ReactorNetwork& networ
 }
 
 }  // namespace
+
+void addVesselKeys(DeckSchema& schema, const std::string& section, const std::string& type) {
+  schema.add(vesselKeys(section, type).schema());
+}
+
+void addNetworkKeys(DeckSchema& schema) {
+  SectionKeys keys("network");
+  keys.section(Presence::optional, "Stirred reactors of one pressure and the streams between them.",
+               {{"reactor.type", {"network"}}});
+  keys.section("reactors", Presence::required, "Named reactors.");
+  keys.quantity("reactors.*.temperature", units::temperature, temperatureRules().optional(),
+                "Temperature at which this reactor is held; absent: it follows from the energy equation.");
+  addVesselKeys(keys.schema(), "network.reactors.*", "network");
+  keys.section("inlets", Presence::required, "Named streams from outside.");
+  keys.text("inlets.*.to", rules(), "Name of the reactor that the stream flows into.");
+  keys.quantity("inlets.*.mass_flow", units::massFlow, rules().above(0), "Mass flow of the stream.");
+  keys.quantity("inlets.*.temperature", units::temperature, temperatureRules(), "Temperature of the gas.");
+  addMixtureKeys(keys.schema(), "network.inlets.*");
+  keys.section("connections", Presence::optional,
+               "Streams between reactors. What a reactor does not pass on leaves the network.");
+  keys.text("connections[].from", rules(), "Name of the reactor that the stream leaves.");
+  keys.text("connections[].to", rules(), "Name of the reactor that the stream flows into.");
+  keys.schema().add(connectionKeys().schema());
+  schema.add(keys.schema());
+}
 
 void readStirred(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("inlet")) throw deck.error("inlet", "a stirred reactor needs the section 'inlet'");
@@ -153,8 +204,7 @@ void readNetwork(const Deck& deck, ReactorCase& reactorCase) {
   const auto connections = readConnections(deck, network);
   const auto flow = balancedFlows(deck, network, connections);
   for (const Connection& connection : connections)
-    network.streams.push_back(
-        {connection.from, connection.to, connection.fraction * flow[connection.from] + connection.massFlow});
+    network.streams.push_back({connection.from, connection.to, connection.flow(flow[connection.from])});
   reactorCase.start.burnt = deck.choice("reactor.start") == "burnt";
 }
 

@@ -5,6 +5,8 @@
 #include <mpi.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "app/problems/reactor/reactor_case.hpp"
 #include "app/run/recorded_run.hpp"
@@ -60,5 +62,15 @@ std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase);
 std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase);
 std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase);
 std::unique_ptr<ReactorDriver> ensembleReactorDriver(const ReactorCase& reactorCase);
+
+// The kinds of reactors that decks name, in the order of their reference: what reads the sections of each, and what
+// runs it without a population.
+struct ReactorKind {
+  std::string name;  // of reactor.type
+  ReactorType type;
+  void (*read)(const Deck& deck, ReactorCase& reactorCase);
+  std::unique_ptr<ReactorDriver> (*driver)(const ReactorCase& reactorCase);
+};
+const std::vector<ReactorKind>& reactorKinds();
 
 }  // namespace lampblack::app

@@ -2,33 +2,21 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "app/problems/reactor/reactor_case.hpp"
 #include "app/problems/reactor/reactor_driver.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
+#include "io/table.hpp"
 
 namespace lampblack::app {
 namespace {
 
 std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
   if (reactorCase.ensemble) return ensembleReactorDriver(reactorCase);
-  switch (reactorCase.type) {
-    case ReactorType::ConstantPressure:
-    case ReactorType::ConstantVolume:
-    case ReactorType::GivenVolume:
-      return closedReactorDriver(reactorCase);
-    case ReactorType::PlugFlow:
-      return plugFlowDriver(reactorCase);
-    case ReactorType::Stirred:
-      return reactorCase.end > 0 ? stirredTransientDriver(reactorCase) : steadyNetworkDriver(reactorCase);
-    case ReactorType::Network:
-      return steadyNetworkDriver(reactorCase);
-    case ReactorType::GivenGas:  // that of particles along a gas, with populations alone
-      break;
-  }
-  return nullptr;
+  return std::ranges::find(reactorKinds(), reactorCase.type, &ReactorKind::type)->driver(reactorCase);
 }
 
 class PreparedReactor : public PreparedRun {
@@ -78,11 +66,7 @@ void runDriver(MPI_Comm comm, ReactorDriver& driver, const RunFolder& folder, co
   }
   collectively(comm, [&] {
     if (rank != 0) return;
-    JsonWriter json;
-    json.beginObject();
-    driver.record(json);
-    json.endObject();
-    record.resultsJson = json.text();
+    record.resultsJson = jsonObject([&](JsonWriter& json) { driver.record(json); });
     record.steps = driver.steps();
     record.simulatedTime = driver.simulatedTime();
     measure();

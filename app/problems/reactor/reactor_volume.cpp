@@ -9,6 +9,7 @@
 #include "app/deck/two_columns.hpp"
 #include "app/problems/reactor/reactor_case_parts.hpp"
 #include "core/errors.hpp"
+#include "io/deck_keys.hpp"
 #include "io/formula.hpp"
 
 namespace lampblack::app::reactorcase {
@@ -65,60 +66,39 @@ VolumeLaw pistonLaw(const Deck& deck, ReactorCase& reactorCase) {
 }  // namespace
 
 void addVolumeKeys(DeckSchema& schema) {
+  SectionKeys keys("volume");
   const std::string piston = "slider_crank";
-  schema
-      .section("volume", Presence::optional, "The volume of a closed reactor in time, whose gas works on what moves.",
-               {{"reactor.type", {"given_volume"}}})
-      .add(choiceKey(lawKey, {"table", "formula", piston, "pressure_rise"},
-                     "table: by points, of a rapid compression machine; formula: of the time; slider_crank: over a "
-                     "piston; pressure_rise: that of an isentrope whose pressure rises evenly, as behind the "
-                     "reflected shock of a shock tube."))
-      .add(quantityKey("volume.time", units::time, "Times of the points, rising.")
-               .list()
-               .optional()
-               .onlyWith(lawKey, {"table"}))
-      .add(quantityKey("volume.volume", units::volume, "Volumes at the points; their ratios count.")
-               .list()
-               .optional()
-               .onlyWith(lawKey, {"table"}))
-      .add(stringKey("volume.file",
-                     "CSV file with the points, in place of lists, of two columns, time in s and volume in any unit; a "
-                     "first line of names may say other units, 'time [ms],volume [cm^3]', and lines that begin with # "
-                     "are skipped. Relative to the deck. Between points a monotone cubic, constant beyond them.")
-               .optional()
-               .onlyWith(lawKey, {"table"}))
-      .add(stringKey("volume.formula",
-                     "The volume as an expression of t in s, '1 - 0.9*min(t/0.03, 1)'; its ratios count.")
-               .optional()
-               .onlyWith(lawKey, {"formula"}))
-      .add(quantityKey("volume.bore", units::length, "Diameter of the piston.")
-               .optional()
-               .above(0)
-               .onlyWith(lawKey, {piston}))
-      .add(quantityKey("volume.stroke", units::length, "Way of the piston, twice the radius of the crank.")
-               .optional()
-               .above(0)
-               .onlyWith(lawKey, {piston}))
-      .add(quantityKey("volume.rod", units::length, "Length of the connecting rod.")
-               .optional()
-               .above(0)
-               .onlyWith(lawKey, {piston}))
-      .add(numberKey("volume.compression_ratio", "Largest over smallest volume.")
-               .optional()
-               .above(1)
-               .onlyWith(lawKey, {piston}))
-      .add(quantityKey("volume.speed", units::angularVelocity, "Speed of the crank.")
-               .optional()
-               .above(0)
-               .onlyWith(lawKey, {piston}))
-      .add(quantityKey("volume.start_angle", units::angle,
-                       "Angle of the crank at time zero, after top dead centre: negative before it.")
-               .byDefault("-180 deg")
-               .onlyWith(lawKey, {piston}))
-      .add(quantityKey("volume.pressure_rise", units::frequency,
-                       "Rise of the pressure of the unreacted gas over its first value, (dp/dt)/p_0: '3 %/ms'.")
-               .optional()
-               .onlyWith(lawKey, {"pressure_rise"}));
+  keys.section(Presence::optional, "The volume of a closed reactor in time, whose gas works on what moves.",
+               {{"reactor.type", {"given_volume"}}});
+  keys.choice("law", {"table", "formula", piston, "pressure_rise"}, rules(),
+              "table: by points, of a rapid compression machine; formula: of the time; slider_crank: over a piston; "
+              "pressure_rise: that of an isentrope whose pressure rises evenly, as behind the reflected shock of a "
+              "shock tube.");
+  keys.quantity("time", units::time, rules().list().optional().onlyWith(lawKey, {"table"}),
+                "Times of the points, rising.");
+  keys.quantity("volume", units::volume, rules().list().optional().onlyWith(lawKey, {"table"}),
+                "Volumes at the points; their ratios count.");
+  keys.text("file", rules().optional().onlyWith(lawKey, {"table"}),
+            "CSV file with the points, in place of lists, of two columns, time in s and volume in any unit; a first "
+            "line of names may say other units, 'time [ms],volume [cm^3]', and lines that begin with # are skipped. "
+            "Relative to the deck. Between points a monotone cubic, constant beyond them.");
+  keys.text("formula", rules().optional().onlyWith(lawKey, {"formula"}),
+            "The volume as an expression of t in s, '1 - 0.9*min(t/0.03, 1)'; its ratios count.");
+  keys.quantity("bore", units::length, rules().optional().above(0).onlyWith(lawKey, {piston}),
+                "Diameter of the piston.");
+  keys.quantity("stroke", units::length, rules().optional().above(0).onlyWith(lawKey, {piston}),
+                "Way of the piston, twice the radius of the crank.");
+  keys.quantity("rod", units::length, rules().optional().above(0).onlyWith(lawKey, {piston}),
+                "Length of the connecting rod.");
+  keys.number("compression_ratio", rules().optional().above(1).onlyWith(lawKey, {piston}),
+              "Largest over smallest volume.");
+  keys.quantity("speed", units::angularVelocity, rules().optional().above(0).onlyWith(lawKey, {piston}),
+                "Speed of the crank.");
+  keys.quantity("start_angle", units::angle, rules().byDefault("-180 deg").onlyWith(lawKey, {piston}),
+                "Angle of the crank at time zero, after top dead centre: negative before it.");
+  keys.quantity("pressure_rise", units::frequency, rules().optional().onlyWith(lawKey, {"pressure_rise"}),
+                "Rise of the pressure of the unreacted gas over its first value, (dp/dt)/p_0: '3 %/ms'.");
+  schema.add(keys.schema());
 }
 
 void readVolume(const Deck& deck, ReactorCase& reactorCase) {

@@ -9,12 +9,14 @@
 #include <set>
 
 #include "app/problems/population/population_case.hpp"
-#include "app/problems/population/population_statistics.hpp"
+#include "app/problems/population/population_progress.hpp"
 #include "app/run/warnings.hpp"
 #include "app/shell/problem.hpp"
 #include "app/shell/study/sweep_table.hpp"
 #include "core/stop_request.hpp"
 #include "io/run_folder.hpp"
+#include "numerics/power_law.hpp"
+#include "particles/population/comparison/comparison.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -61,13 +63,13 @@ PopulationCase caseOf(const Deck& deck) {
 }
 
 // One moment at the rows after time zero.
-std::vector<double> column(const std::vector<Moments>& rows, std::size_t k) {
+std::vector<double> column(const std::vector<FourMoments>& rows, std::size_t k) {
   std::vector<double> values;
   for (std::size_t j = 1; j < rows.size(); ++j) values.push_back(rows[j][k]);
   return values;
 }
 
-ConvergencePoint pointOf(const MethodStatistics& statistics, const std::vector<Moments>& reference,
+ConvergencePoint pointOf(const MethodStatistics& statistics, const std::vector<FourMoments>& reference,
                          std::int64_t particles, std::int64_t repeats) {
   ConvergencePoint point{statistics.name, particles, repeats, {}, {}, {}};
   for (std::size_t k = 0; k < 4; ++k) {
@@ -122,7 +124,7 @@ TextTable slopeTable(const std::vector<ConvergencePoint>& points, const std::vec
 }
 
 void addHistory(TextTable& table, const MethodStatistics& statistics, const PopulationStatistics& frame,
-                const std::vector<Moments>& reference, std::int64_t particles) {
+                const std::vector<FourMoments>& reference, std::int64_t particles) {
   for (std::size_t j = 0; j < statistics.mean.size(); ++j) {
     std::vector<std::string> row{statistics.name, std::to_string(particles), shortNumber(frame.rows[j])};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -135,37 +137,6 @@ void addHistory(TextTable& table, const MethodStatistics& statistics, const Popu
 }
 
 }  // namespace
-
-FittedLine fitPowerLaw(std::span<const double> x, std::span<const double> y) {
-  std::vector<double> a, b;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (!(x[i] > 0) || !(y[i] > 0) || !std::isfinite(y[i])) continue;
-    a.push_back(std::log(x[i]));
-    b.push_back(std::log(y[i]));
-  }
-  const auto n = static_cast<double>(a.size());
-  if (a.size() < 2) return {nan, nan};
-  double meanA = 0, meanB = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    meanA += a[i] / n;
-    meanB += b[i] / n;
-  }
-  double aa = 0, ab = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    aa += (a[i] - meanA) * (a[i] - meanA);
-    ab += (a[i] - meanA) * (b[i] - meanB);
-  }
-  if (!(aa > 0)) return {nan, nan};
-  FittedLine line{ab / aa, nan};
-  if (a.size() < 3) return line;
-  double residual = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const double away = b[i] - meanB - line.slope * (a[i] - meanA);
-    residual += away * away;
-  }
-  line.slopeError = std::sqrt(residual / (n - 2) / aa);
-  return line;
-}
 
 MeanErrors meanErrors(std::span<const double> mean, std::span<const double> standardError,
                       std::span<const double> reference, std::int64_t repeats) {
@@ -222,11 +193,11 @@ void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std:
     methods = methodsOf(all, options);
   });
 
-  std::vector<Moments> reference;
+  std::vector<FourMoments> reference;
   if (!options.exact) {
     PopulationCase one = oneMethod(all, options.referenceMethod, options.referenceParticles, options.referenceRepeats);
     one.seed = all.seed + 1;  // independent of the runs it is compared with
-    const PopulationStatistics statistics = runPopulation(comm, one);
+    const PopulationStatistics statistics = runAndTell(comm, one);
     if (statistics.stop != 0)
       raiseStopped(comm, statistics.stop, "in the middle of a convergence study: nothing of it is kept");
     if (rank == 0) reference = statistics.methods.at(0).mean;
@@ -240,7 +211,7 @@ void runConvergence(MPI_Comm comm, const ConvergenceOptions& options, const std:
   for (const std::string& method : methods) {
     for (const std::int64_t particles : options.particles) {
       const std::int64_t repeats = options.product / particles;
-      const PopulationStatistics statistics = runPopulation(comm, oneMethod(all, method, particles, repeats));
+      const PopulationStatistics statistics = runAndTell(comm, oneMethod(all, method, particles, repeats));
       if (statistics.stop != 0)
         raiseStopped(comm, statistics.stop, "in the middle of a convergence study: nothing of it is kept");
       collectively(comm, [&] {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "io/deck_keys.hpp"
 #include "io/json.hpp"
 #include "io/request_limits.hpp"
 
@@ -167,72 +168,53 @@ ConvergenceOptions readConvergence(const Deck& study, const std::vector<std::str
 }  // namespace
 
 DeckSchema studySchema() {
-  DeckSchema schema;
-  schema.add(stringKey("study", "Name of the study, for its table."))
-      .add(stringKey("decks", "Decks to run, relative to this file.").list().byDefault("[]"))
-      .add(stringKey("deck", "One deck, in place of a list of decks.").optional())
-      .section("vary", Presence::optional, "What is varied in every deck; all combinations are run.")
-      .add(stringKey("vary[].key", "Key of the deck that is varied: initial.temperature."))
-      .add(stringKey("vary[].values", "Values of the key, as they would stand in the deck: [900 K, 1000 K].").list())
-      .section("variants", Presence::optional,
-               "Variants of every deck, each with several settings at once; combined with what is varied.")
-      .add(stringKey("variants[].name", "Name of the variant: part of the run's name, and a column of the table."))
-      .add(stringKey("variants[].set",
-                     "Assignments to keys of the deck that make this variant: [left.velocity=25 cm/s, "
-                     "right.velocity=25 cm/s].")
-               .list())
-      .add(stringKey("set", "Assignments applied to every deck before what is varied: [time.end=1 s, repeats=10].")
-               .list()
-               .byDefault("[]"))
-      .add(integerKey("ranks_per_run",
-                      "Ranks that share a run; so many runs go on side by side as fit. All ranks work on one run after "
-                      "another if this is not given, which suits problems that spread over ranks by themselves.")
-               .optional()
-               .atLeast(1))
-      .add(integerKey(
-               "chain",
-               "One-dimensional flames and flows: so many runs follow each other on the same ranks, each starting "
-               "from the end of the one before it (key initial, initial.flow); the first, and one after a failure, "
-               "from the deck's own start. Of steady states that follows a branch over a parameter.")
-               .byDefault("1")
-               .atLeast(1))
-      .add(stringKey("collect.results",
-                     "Which of a run's results (the object \"results\" of run.json, its parts joined by dots) become "
-                     "columns of the study's table; all takes every one.")
-               .list()
-               .byDefault("[all]"))
-      .add(stringKey("collect.tables",
-                     "CSV tables of the runs that are put below each other, the name of the run in front; a run "
-                     "without such a file is skipped.")
-               .list()
-               .byDefault("[table.csv]"))
-      .add(stringKey("collect.columns", "Columns of those tables to show on the console, by name without unit.")
-               .list()
-               .byDefault("[all]"))
-      .section("convergence", Presence::optional,
-               "Error of Monte Carlo methods against the number of particles, particles times repeats kept constant.")
-      .add(stringKey("convergence.deck", "A deck of problem population_balance, relative to this file."))
-      .add(stringKey("convergence.set", "Assignments to keys of that deck: [time.end=1 s].").list().byDefault("[]"))
-      .add(stringKey("convergence.methods", "Methods of the deck by name; none named: all Monte Carlo methods.")
-               .list()
-               .byDefault("[]"))
-      .add(integerKey("convergence.particles", "Numbers of particles: [512, 1024, 2048].").list().atLeast(2))
-      .add(integerKey("convergence.product", "Particles times repeats, the same for every number of particles.")
-               .byDefault("131072")
-               .atLeast(4))
-      .add(choiceKey("convergence.reference.type", {"exact", "run"},
-                     "What the error is counted from: the exact solution, or a run with many particles.")
-               .byDefault("exact"))
-      .add(stringKey("convergence.reference.method",
-                     "With type run: the method of the reference, by its name in the deck.")
-               .optional())
-      .add(integerKey("convergence.reference.particles", "With type run: the number of particles of the reference.")
-               .optional()
-               .atLeast(2))
-      .add(integerKey("convergence.reference.repeats", "With type run: the number of repeats of the reference.")
-               .optional()
-               .atLeast(1));
-  return schema;
+  SectionKeys keys("");
+  keys.text("study", rules(), "Name of the study, for its table.");
+  keys.text("decks", rules().list().byDefault("[]"), "Decks to run, relative to this file.");
+  keys.text("deck", rules().optional(), "One deck, in place of a list of decks.");
+  keys.section("vary", Presence::optional, "What is varied in every deck; all combinations are run.");
+  keys.text("vary[].key", rules(), "Key of the deck that is varied: initial.temperature.");
+  keys.text("vary[].values", rules().list(), "Values of the key, as they would stand in the deck: [900 K, 1000 K].");
+  keys.section("variants", Presence::optional,
+               "Variants of every deck, each with several settings at once; combined with what is varied.");
+  keys.text("variants[].name", rules(), "Name of the variant: part of the run's name, and a column of the table.");
+  keys.text("variants[].set", rules().list(),
+            "Assignments to keys of the deck that make this variant: [left.velocity=25 cm/s, right.velocity=25 cm/s].");
+  keys.text("set", rules().list().byDefault("[]"),
+            "Assignments applied to every deck before what is varied: [time.end=1 s, repeats=10].");
+  keys.integer("ranks_per_run", rules().optional().atLeast(1),
+               "Ranks that share a run; so many runs go on side by side as fit. All ranks work on one run after "
+               "another if this is not given, which suits problems that spread over ranks by themselves.");
+  keys.integer("chain", rules().byDefault("1").atLeast(1),
+               "One-dimensional flames and flows: so many runs follow each other on the same ranks, each starting from "
+               "the end of the one before it (key initial, initial.flow); the first, and one after a failure, from the "
+               "deck's own start. Of steady states that follows a branch over a parameter.");
+  keys.text("collect.results", rules().list().byDefault("[all]"),
+            "Which of a run's results (the object \"results\" of run.json, its parts joined by dots) become columns of "
+            "the study's table; all takes every one.");
+  keys.text("collect.tables", rules().list().byDefault("[table.csv]"),
+            "CSV tables of the runs that are put below each other, the name of the run in front; a run without such a "
+            "file is skipped.");
+  keys.text("collect.columns", rules().list().byDefault("[all]"),
+            "Columns of those tables to show on the console, by name without unit.");
+  keys.section("convergence", Presence::optional,
+               "Error of Monte Carlo methods against the number of particles, particles times repeats kept constant.");
+  keys.text("convergence.deck", rules(), "A deck of problem population_balance, relative to this file.");
+  keys.text("convergence.set", rules().list().byDefault("[]"), "Assignments to keys of that deck: [time.end=1 s].");
+  keys.text("convergence.methods", rules().list().byDefault("[]"),
+            "Methods of the deck by name; none named: all Monte Carlo methods.");
+  keys.integer("convergence.particles", rules().list().atLeast(2), "Numbers of particles: [512, 1024, 2048].");
+  keys.integer("convergence.product", rules().byDefault("131072").atLeast(4),
+               "Particles times repeats, the same for every number of particles.");
+  keys.choice("convergence.reference.type", {"exact", "run"}, rules().byDefault("exact"),
+              "What the error is counted from: the exact solution, or a run with many particles.");
+  keys.text("convergence.reference.method", rules().optional(),
+            "With type run: the method of the reference, by its name in the deck.");
+  keys.integer("convergence.reference.particles", rules().optional().atLeast(2),
+               "With type run: the number of particles of the reference.");
+  keys.integer("convergence.reference.repeats", rules().optional().atLeast(1),
+               "With type run: the number of repeats of the reference.");
+  return keys.schema();
 }
 
 SweepStudy readStudy(const Deck& study, const std::vector<std::string>& settings) {

@@ -1,13 +1,14 @@
 // The statistics of repeats against numbers worked out by hand, and what is said of them.
+#include "particles/population/comparison/method_accumulator.hpp"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "app/problems/population/population_accumulator.hpp"
-#include "tests/every_module.hpp"
+#include "core/modules.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 namespace {
 
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
@@ -27,7 +28,7 @@ class PopulationStatisticsTest : public ::testing::Test {
     frame_.exact.moments = {{1, 10, 100, 1000}, {2, 10, 200, 4000}};
   }
 
-  std::vector<double> record(const Moments& first, const Moments& last, double number) const {
+  std::vector<double> record(const FourMoments& first, const FourMoments& last, double number) const {
     std::vector<double> data(shape_.size(), 0.0);
     for (std::size_t k = 0; k < 4; ++k) {
       data[k] = first[k];
@@ -37,7 +38,7 @@ class PopulationStatisticsTest : public ::testing::Test {
     data[5] = data[11] = 100;
     data[12] = number;
     data[13] = 0.5;      // s
-    data[14] = missing;  // does not gel
+    data[14] = noValue;  // does not gel
     data[15] = 7;        // coagulations
     data[20] = 3;        // fictitious: in the order of populationCounters
     return data;
@@ -101,7 +102,7 @@ TEST_F(PopulationStatisticsTest, TheErrorOfTheMassIsTheLargestOfAllRows) {
   }
   data[18] = 1;        // number
   data[19] = 0.5;      // s
-  data[20] = missing;  // does not gel
+  data[20] = noValue;  // does not gel
   EXPECT_NEAR(of({data}).repeats[0].massError, 0.03, 1e-15);
 }
 
@@ -149,7 +150,7 @@ TEST_F(PopulationStatisticsTest, FarFromTheExactValueIsABias) {
 
 TEST_F(PopulationStatisticsTest, RowsAfterAGelationAreDropped) {
   auto records = threeRepeats();
-  records[1][6] = records[1][12] = missing;
+  records[1][6] = records[1][12] = noValue;
   records[1][14] = 1.25;
   const MethodStatistics made = of(records);
   EXPECT_EQ(made.mean.size(), 1U);
@@ -191,4 +192,4 @@ TEST(PopulationTimes, RowsAreLinearOrLogarithmicAndEndExactly) {
 }
 
 }  // namespace
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

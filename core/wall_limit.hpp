@@ -7,7 +7,7 @@
 
 #include "core/modules.hpp"
 
-namespace lampblack::app {
+namespace lampblack {
 
 class WallLimit {
  public:
@@ -35,4 +35,4 @@ class WallLimit {
   double longestOutput_ = 0.0, lastCheckpoint_ = 0.0;
 };
 
-}  // namespace lampblack::app
+}  // namespace lampblack

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/problems/population/population_accumulator.hpp"
+#include "particles/population/comparison/method_accumulator.hpp"
 #include "particles/population/exact_solutions/initial_distribution.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 namespace {
 
 constexpr double largestZ = 3.3;    // exceeded by chance once in a thousand
@@ -97,4 +97,4 @@ std::vector<std::string> startsWithoutTruth(const PopulationCase& populationCase
   return warnings;
 }
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

@@ -12,7 +12,7 @@
 #include "core/state_archive.hpp"
 #include "flow/operator.hpp"
 
-namespace lampblack::app {
+namespace lampblack::flow {
 
 class CellCosts {
  public:
@@ -52,4 +52,4 @@ class CellCosts {
 // Collective. Whether all cells of all ranks have the same weight.
 [[nodiscard]] bool areEven(MPI_Comm comm, std::span<const double> weights);
 
-}  // namespace lampblack::app
+}  // namespace lampblack::flow

@@ -1,12 +1,12 @@
 // Adds up the repeats of one method, in their order.
 #pragma once
 
-#include "app/problems/population/population_repeat.hpp"
-#include "app/problems/population/population_statistics.hpp"
 #include "core/modules.hpp"
 #include "core/running_mean.hpp"
+#include "particles/population/comparison/comparison.hpp"
+#include "particles/population/comparison/repeat_record.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 
 class MethodAccumulator {
  public:
@@ -23,7 +23,7 @@ class MethodAccumulator {
   RepeatRecord::Shape shape_;
   std::size_t reachedRows_, reachedTimes_;
   std::vector<std::array<RunningMean, 6>> rows_;  // moments, geometric deviation, particles
-  std::vector<Moments> sigma_;                    // sums
+  std::vector<FourMoments> sigma_;                // sums
   std::vector<std::vector<RunningMean>> number_;
   MethodStatistics made_;
 };
@@ -31,4 +31,4 @@ class MethodAccumulator {
 // Compares the deviations with the moments that have to be unbiased; sets `bias` and `verdict`.
 void judge(const PopulationCase& populationCase, const PopulationMethod& method, MethodStatistics& statistics);
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

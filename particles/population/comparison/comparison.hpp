@@ -16,13 +16,13 @@
 #include <string>
 #include <vector>
 
-#include "app/problems/population/population_case.hpp"
 #include "core/modules.hpp"
-#include "io/report.hpp"
+#include "core/timers.hpp"
+#include "particles/population/comparison/repeat_record.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 
-using Moments = std::array<double, 4>;  // M_0 to M_3, or a quantity of each; NaN where there is none
+using FourMoments = std::array<double, 4>;  // M_0 to M_3, or a quantity of each; NaN where there is none
 
 enum class BiasVerdict {
   none,           // nothing to compare with: one run only, no exact solution, or gelled
@@ -33,8 +33,8 @@ enum class BiasVerdict {
 };
 
 struct RepeatResult {
-  Moments moments{}, sigma{};  // at the end
-  double massError = 0;        // see MethodStatistics::massError
+  FourMoments moments{}, sigma{};  // at the end
+  double massError = 0;            // see MethodStatistics::massError
   double particles = 0, seconds = 0;
   PopulationCounters counters;
 };
@@ -45,16 +45,16 @@ struct MethodStatistics {
   std::vector<RepeatResult> repeats;
 
   // One for each row of the history that all repeats reached.
-  std::vector<Moments> mean, error;  // of the repeats, and its standard error (NaN of a single one)
-  std::vector<Moments> sigma;        // up to the row's time
+  std::vector<FourMoments> mean, error;  // of the repeats, and its standard error (NaN of a single one)
+  std::vector<FourMoments> sigma;        // up to the row's time
   std::vector<double> geometricDeviation, geometricDeviationError;
   std::vector<double> particles;  // numerical particles, sections or moments; mean
   // Times of the distribution (that were reached) x bins, 1/m3; empty where the method has none.
   std::vector<std::vector<double>> number, numberError;
 
   // At the last row.
-  Moments deviation{};  // of the mean, relative to the exact value
-  Moments z{};          // NaN where there is no scatter: less than 1e-12 of the mean
+  FourMoments deviation{};  // of the mean, relative to the exact value
+  FourMoments z{};          // NaN where there is no scatter: less than 1e-12 of the mean
   // Largest |M1 / M1(0) - 1| of all rows and repeats where the processes conserve mass, otherwise
   // |M1 / M1,exact - 1|; NaN where neither can be said.
   double massError = 0;
@@ -63,13 +63,14 @@ struct MethodStatistics {
   PopulationCounters counters;     // summed over the repeats
   std::optional<double> gelation;  // s, earliest of the repeats
   BiasVerdict bias = BiasVerdict::none;
-  std::string verdict;  // in words
-  StageTime stage;      // wall time over the ranks
+  std::string verdict;    // in words
+  Timers::Stage stage{};  // wall time over the ranks
 };
 
 struct ExactReference {
   std::string name;                         // empty: none known
-  std::vector<Moments> moments;             // a row each
+  std::string limit;                        // why nothing is compared from some time on, in words; empty: all is
+  std::vector<FourMoments> moments;         // a row each
   std::vector<std::vector<double>> number;  // time x bins; empty where not known
   std::optional<double> gelation;           // s
 };
@@ -89,9 +90,7 @@ std::vector<std::string> startsWithoutTruth(const PopulationCase& populationCase
                                             const PopulationStatistics& statistics);
 
 // Collective; InputError and NumericsError are raised on all ranks. What comes back is complete on rank 0 and empty on
-// the others. `finished` is called on rank 0 after each method. A method that gels has the rows until then, and no
-// further repeats are begun.
-PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populationCase,
-                                   const std::function<void(const MethodStatistics&)>& finished = {});
+// the others. A method that gels has the rows until then, and no further repeats are begun.
+PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populationCase, RepeatProgress& progress);
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

@@ -1,4 +1,4 @@
-#include "app/problems/flow/cell_costs.hpp"
+#include "flow/stepping/cell_costs.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 #include <numeric>
 #include <utility>
 
-namespace lampblack::app {
+namespace lampblack::flow {
 namespace {
 
 constexpr std::int64_t averagedSteps = 20;  // one that lies so far back counts 1/e
@@ -76,4 +76,4 @@ bool areEven(MPI_Comm comm, std::span<const double> weights) {
   return most[0] == -most[1];
 }
 
-}  // namespace lampblack::app
+}  // namespace lampblack::flow

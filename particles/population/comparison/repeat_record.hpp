@@ -8,14 +8,26 @@
 #include <span>
 #include <vector>
 
-#include "app/problems/population/population_case.hpp"
-#include "app/problems/population/population_progress.hpp"
 #include "core/modules.hpp"
+#include "particles/population/comparison/population_case.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
+
+// Whom repeats tell where they are.
+class RepeatProgress {
+ public:
+  virtual ~RepeatProgress() = default;
+  virtual void at(const PopulationMethod& method, std::uint64_t repeat, double time) = 0;  // s
+  virtual void repeatEnded() = 0;
+
+ protected:
+  RepeatProgress() = default;
+  RepeatProgress(const RepeatProgress&) = default;
+  RepeatProgress& operator=(const RepeatProgress&) = default;
+};
 
 // What was not reached, or what a method does not have.
-inline constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+inline constexpr double noValue = std::numeric_limits<double>::quiet_NaN();
 
 // Where the numbers of a repeat stand in its record. Rows and bins that were not reached, or that a method does not
 // have, are NaN.
@@ -58,7 +70,7 @@ class RepeatRecord {
 // latest at `gelation` (s), which is then in the record, and where the run is asked to stop. `data` has the size of the
 // shape. InputError, NumericsError with the names of method and repeat.
 void runRepeat(const PopulationCase& populationCase, const PopulationMethod& method, std::uint64_t repeat,
-               std::optional<double> gelation, const RepeatRecord::Shape& shape, PopulationProgress& progress,
+               std::optional<double> gelation, const RepeatRecord::Shape& shape, RepeatProgress& progress,
                std::span<double> data);
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

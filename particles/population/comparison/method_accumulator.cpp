@@ -1,16 +1,16 @@
-#include "app/problems/population/population_accumulator.hpp"
+#include "particles/population/comparison/method_accumulator.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace lampblack::app {
+namespace lampblack::particles {
 namespace {
 
 // Scatter of the repeats below this part of the mean is round-off, not noise.
 constexpr double scatterRoundOff = 1e-12;
 
-Moments all(double value) {
+FourMoments all(double value) {
   return {value, value, value, value};
 }
 
@@ -44,14 +44,14 @@ void MethodAccumulator::add(const RepeatRecord& record) {
   RepeatResult result;
   reachedRows_ = std::min(reachedRows_, record.rows());
   const auto& exact = frame_.exact.moments;
-  Moments integral = all(0), before = all(0);
+  FourMoments integral = all(0), before = all(0);
   const bool conserved = case_.conservesMass();
   for (std::size_t row = 0; row < reachedRows_; ++row) {
     for (std::size_t k = 0; k < 4; ++k) {
       const double value = record.moment(row, k);
       rows_[row][k].add(value);
       result.moments[k] = value;
-      const double away = exact.empty() ? missing : relative(value, exact[row][k]);
+      const double away = exact.empty() ? noValue : relative(value, exact[row][k]);
       // The trapezoidal rule over the rows.
       const double time = frame_.rows[row], square = away * away;
       if (row > 0) integral[k] += 0.5 * (time - frame_.rows[row - 1]) * (square + before[k]);
@@ -62,7 +62,7 @@ void MethodAccumulator::add(const RepeatRecord& record) {
     rows_[row][4].add(record.geometricDeviation(row));
     rows_[row][5].add(record.particles(row));
     result.particles = record.particles(row);
-    const double reference = conserved ? record.moment(0, 1) : exact.empty() ? missing : exact[row][1];
+    const double reference = conserved ? record.moment(0, 1) : exact.empty() ? noValue : exact[row][1];
     const double away = std::abs(relative(record.moment(row, 1), reference));
     result.massError = row == 0 || std::isnan(away) ? away : std::max(result.massError, away);
   }
@@ -81,7 +81,7 @@ MethodStatistics MethodAccumulator::finish() const {
   MethodStatistics made = made_;
   const auto count = static_cast<double>(made.repeats.size());
   for (std::size_t row = 0; row < reachedRows_; ++row) {
-    Moments mean{}, error{}, sigma{};
+    FourMoments mean{}, error{}, sigma{};
     for (std::size_t k = 0; k < 4; ++k) {
       mean[k] = rows_[row][k].mean();
       error[k] = rows_[row][k].standardError();
@@ -103,7 +103,7 @@ MethodStatistics MethodAccumulator::finish() const {
     made.number.push_back(std::move(mean));
     made.numberError.push_back(std::move(error));
   }
-  made.deviation = made.z = all(missing);
+  made.deviation = made.z = all(noValue);
   const std::size_t last = reachedRows_ - 1;
   for (std::size_t k = 0; k < 4 && reachedRows_ > 0 && !frame_.exact.moments.empty(); ++k) {
     const double exact = frame_.exact.moments[last][k], away = made.mean[last][k] - exact;
@@ -118,9 +118,9 @@ MethodStatistics MethodAccumulator::finish() const {
     made.massError = std::isnan(repeat.massError) ? repeat.massError : std::max(made.massError, repeat.massError);
   }
   made.secondsPerRepeat = seconds / count;
-  made.eventsPerSecond = seconds > 0 ? static_cast<double>(made.counters.events()) / seconds : missing;
+  made.eventsPerSecond = seconds > 0 ? static_cast<double>(made.counters.events()) / seconds : noValue;
   judge(case_, method_, made);
   return made;
 }
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

@@ -5,18 +5,15 @@
 #include <span>
 #include <vector>
 
-#include "app/problems/aggregates/aggregates_case.hpp"
 #include "core/modules.hpp"
-#include "core/quantity.hpp"
+#include "particles/aggregates/aggregate_numbers.hpp"
+#include "particles/aggregates/aggregates_case.hpp"
 
-namespace lampblack::app {
-
-// What a row has, in this order; NaN where a population does not have it.
-[[nodiscard]] const std::vector<Quantity>& aggregateQuantities();
+namespace lampblack::particles {
 
 // Fills rows() times as many numbers; NaN behind where the run is asked to stop. `last`, where given, becomes some
 // aggregates of the end, drawn at random. NumericsError.
 void runAggregates(const AggregatesCase& made, std::uint64_t repeat, std::span<double> rows,
                    std::vector<SphereAggregate>* last);
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

@@ -15,7 +15,7 @@
 #include "particles/pah/molecule_growth.hpp"
 #include "particles/pah/site_counting.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 
 // What a row has of a molecule, in this order.
 [[nodiscard]] const std::vector<Quantity>& growthQuantities();
@@ -67,4 +67,4 @@ class GrowthSums {
   SiteClosure closure_;
 };
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

@@ -1,4 +1,4 @@
-#include "app/problems/population/population_repeat.hpp"
+#include "particles/population/comparison/repeat_record.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "core/stop_request.hpp"
 #include "particles/population/gelation_error.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 namespace {
 
 // The run is asked to stop in the middle of a repeat.
@@ -43,11 +43,11 @@ std::size_t RepeatRecord::rows() const {
 }
 
 void runRepeat(const PopulationCase& populationCase, const PopulationMethod& method, std::uint64_t repeat,
-               std::optional<double> gelation, const RepeatRecord::Shape& shape, PopulationProgress& progress,
+               std::optional<double> gelation, const RepeatRecord::Shape& shape, RepeatProgress& progress,
                std::span<double> data) {
   const std::vector<double> rows = populationCase.times.rows();
   const PopulationBins& bins = populationCase.bins;
-  std::fill(data.begin(), data.end(), missing);
+  std::fill(data.begin(), data.end(), noValue);
   double seconds = 0;
   std::optional<double> gelled;
   const auto numbers = data.subspan(6 * shape.rows);
@@ -91,7 +91,7 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
       data[6 * row + 5] = static_cast<double>(solver->particles());
     }
     tail[0] = seconds;
-    tail[1] = gelled.value_or(missing);
+    tail[1] = gelled.value_or(noValue);
     for (std::size_t k = 0; k < RepeatRecord::numCounters; ++k)
       tail[2 + k] = static_cast<double>(solver->counters().*populationCounters[k].value);
     progress.repeatEnded();
@@ -102,4 +102,4 @@ void runRepeat(const PopulationCase& populationCase, const PopulationMethod& met
   }
 }
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

@@ -1,4 +1,4 @@
-#include "app/problems/population/population_statistics.hpp"
+#include "particles/population/comparison/comparison.hpp"
 
 #include <fmt/format.h>
 
@@ -7,15 +7,14 @@
 #include <map>
 #include <span>
 
-#include "app/problems/population/population_accumulator.hpp"
-#include "app/problems/population/population_repeat.hpp"
-#include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/repeats.hpp"
 #include "core/stop_request.hpp"
 #include "core/timers.hpp"
+#include "particles/population/comparison/method_accumulator.hpp"
+#include "particles/population/comparison/repeat_record.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 namespace {
 
 struct Ranks {
@@ -37,15 +36,15 @@ ExactReference makeReference(const PopulationCase& populationCase, const ExactSo
   const auto holds = [&](double time) { return time <= last && (!reference.gelation || time < *reference.gelation); };
   double reached = 0;
   for (const double time : populationCase.times.rows()) {
-    Moments row{missing, missing, missing, missing};
+    FourMoments row{noValue, noValue, noValue, noValue};
     try {
       const auto moments = holds(time) ? solution->moments(time) : std::array<std::optional<double>, 4>{};
-      for (std::size_t k = 0; k < 4; ++k) row[k] = moments[k].value_or(missing);
+      for (std::size_t k = 0; k < 4; ++k) row[k] = moments[k].value_or(noValue);
       reached = time;
     } catch (const InputError& error) {
       last = reached;
-      printWarnings(
-          {fmt::format("nothing is compared with the exact solution from t = {:g} s on: {}", time, error.what())});
+      reference.limit =
+          fmt::format("nothing is compared with the exact solution from t = {:g} s on: {}", time, error.what());
     }
     reference.moments.push_back(row);
   }
@@ -62,7 +61,7 @@ ExactReference makeReference(const PopulationCase& populationCase, const ExactSo
 // `seconds` are those of this rank for each method.
 std::map<std::size_t, std::vector<double>> runOnce(const Ranks& ranks, const PopulationCase& populationCase,
                                                    std::optional<double> gelation, const RepeatRecord::Shape& shape,
-                                                   PopulationProgress& progress, std::vector<double>& seconds) {
+                                                   RepeatProgress& progress, std::vector<double>& seconds) {
   std::map<std::size_t, std::vector<double>> records;
   std::map<std::size_t, int> owners;
   for (std::size_t m = 0; m < populationCase.methods.size(); ++m)
@@ -96,8 +95,7 @@ std::optional<double> PopulationStatistics::gelation() const {
   return earliest;
 }
 
-PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populationCase,
-                                   const std::function<void(const MethodStatistics&)>& finished) {
+PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populationCase, RepeatProgress& progress) {
   const Ranks ranks(comm);
   PopulationStatistics made;
   made.rows = populationCase.times.rows();
@@ -112,7 +110,6 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
                                   made.bins.edges.empty() ? 0 : made.bins.edges.size() - 1};
   const std::uint64_t most = repeatsAtATime(comm, shape.size());
   std::vector<double> seconds(populationCase.methods.size(), 0.0);
-  PopulationProgress progress(comm, populationCase);
   const auto once = runOnce(ranks, populationCase, gelation, shape, progress, seconds);
   for (std::size_t m = 0; m < populationCase.methods.size(); ++m) {
     const PopulationMethod& method = populationCase.methods[m];
@@ -147,13 +144,9 @@ PopulationStatistics runPopulation(MPI_Comm comm, const PopulationCase& populati
     const Timers::Stage stage = Timers::overRanks(comm, method.name, seconds[m]);
     if (ranks.rank != 0 || whole == 0) continue;
     made.methods.push_back(accumulator.finish());
-    made.methods.back().stage = {stage.name, stage.least, stage.mean, stage.most};
-    if (!finished) continue;
-    progress.finish();
-    finished(made.methods.back());
+    made.methods.back().stage = stage;
   }
-  progress.finish();
   return made;
 }
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

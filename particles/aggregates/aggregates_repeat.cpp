@@ -1,4 +1,4 @@
-#include "app/problems/aggregates/aggregates_repeat.hpp"
+#include "particles/aggregates/aggregates_repeat.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,13 +8,14 @@
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "particles/population/monte_carlo/initial_sample.hpp"
+#include "particles/spheres/ballistic_joining.hpp"
 #include "particles/spheres/sphere_geometry.hpp"
 #include "particles/spheres/sphere_growth.hpp"
 #include "particles/spheres/sphere_measures.hpp"
 #include "particles/spheres/sphere_sintering.hpp"
 #include "particles/trees/tree_population.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 namespace {
 
 // The run is asked to stop in the middle of a repeat.
@@ -23,75 +24,9 @@ void requireGoingOn() {
   if (stopRequest() != 0) throw Cut{};
 }
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 // What random numbers are for: RandomStream.
 constexpr std::uint32_t buildPurpose = 0x61676772, shadowPurpose = 0x73686164, radiusPurpose = 0x72616469,
                         drawPurpose = 0x64726177;
-
-// What a population says besides its aggregates.
-struct PopulationNumbers {
-  double number = nothing, collisionDiameter = nothing, tries = nothing, merged = 0;
-};
-
-void describe(const AggregatesCase& made, const std::vector<const SphereAggregate*>& all,
-              const PopulationNumbers& population, FractalPoints& law, RandomStream& random, std::span<double> row) {
-  double spheres = 0, largest = 0, volume = 0, surface = 0, radius = 0, logs = 0, squares = 0, necks = 0, widths = 0,
-         gyration = 0, points = 0, length = 0, shadow = 0, mobility = 0, joints = 0, overlap = 0;
-  for (const SphereAggregate* one : all) {
-    const auto n = static_cast<double>(one->count());
-    spheres += n;
-    largest = std::max(largest, n);
-    volume += one->volume();
-    surface += one->surface();
-    for (std::size_t k = 0; k < one->count(); ++k) {
-      const AggregateSphere& s = one->spheres()[k];
-      radius += s.radius;
-      logs += std::log(s.radius);
-      squares += std::log(s.radius) * std::log(s.radius);
-      if (k == 0) continue;
-      ++necks;
-      widths += std::sqrt(s.neck) / std::min(s.radius, one->spheres()[s.parent].radius);
-    }
-    const double square = gyrationSquared(*one), area = projectedArea(*one, made.directions, random);
-    gyration += square;
-    points += gyrationSquaredOfPoints(*one);
-    length += maximumLength(*one);
-    shadow += area;
-    mobility += shadowDiameter(area);
-    joints += coordination(*one);
-    overlap += uncountedOverlap(*one);
-    if (n >= static_cast<double>(made.fitFrom)) law.add(n, std::sqrt(square) / meanRadius(*one));
-  }
-  const auto count = static_cast<double>(all.size());
-  const double variance = std::max(0.0, squares / spheres - logs / spheres * (logs / spheres));
-  const FractalFit fit = law.fit();
-  const double values[] = {population.number,
-                           count,
-                           spheres / count,
-                           largest,
-                           volume / count,
-                           surface / count,
-                           radius / spheres,
-                           std::exp(std::sqrt(variance)),
-                           necks > 0 ? widths / necks : nothing,
-                           std::sqrt(gyration / count),
-                           std::sqrt(points / count),
-                           length / count,
-                           shadow / count,
-                           mobility / count,
-                           population.collisionDiameter,
-                           joints / count,
-                           overlap / volume,
-                           fit.dimension,
-                           fit.dimensionError,
-                           fit.prefactor,
-                           fit.prefactorError,
-                           static_cast<double>(law.count()),
-                           population.tries,
-                           population.merged};
-  std::ranges::copy(values, row.begin());
-}
 
 std::vector<double> drawRadii(const AggregatesCase& made, std::uint64_t repeat, std::size_t count) {
   RandomStream random(made.seed, repeat, radiusPurpose);
@@ -106,10 +41,13 @@ class Rows {
   Rows(const AggregatesCase& made, std::uint64_t repeat, std::span<double> rows)
       : made_(made), random_(made.seed, repeat, shadowPurpose), rows_(rows) {}
   // The law of a fractal goes through the aggregates of a row; of those that are being built, of all sizes so far.
-  void add(const std::vector<const SphereAggregate*>& all, const PopulationNumbers& population, bool isBuilt = false) {
+  void add(const std::vector<const SphereAggregate*>& all, const AggregatePopulation& population,
+           bool isBuilt = false) {
     const std::size_t width = aggregateQuantities().size();
     if (!isBuilt) law_ = {};
-    if (!all.empty()) describe(made_, all, population, law_, random_, rows_.subspan(next_ * width, width));
+    if (!all.empty())
+      describeAggregates(all, {made_.fitFrom, made_.directions}, population, law_, random_,
+                         rows_.subspan(next_ * width, width));
     ++next_;
   }
 
@@ -208,9 +146,9 @@ void collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::
     population.applyDeferred();
     last.clear();
     const TreeTotals totals = population.totals();
-    PopulationNumbers numbers{.number = totals.number,
-                              .collisionDiameter = totals.collisionDiameter,
-                              .merged = static_cast<double>(population.counters().fused)};
+    AggregatePopulation numbers{.number = totals.number,
+                                .collisionDiameter = totals.collisionDiameter,
+                                .merged = static_cast<double>(population.counters().fused)};
     population.forEachTree([&](const Tree& tree, double) { last.emplace_back().copy(tree.spheres()); });
     if (const auto collisions = population.counters().coagulations; collisions > 0)
       numbers.tries = static_cast<double>(population.tries()) / static_cast<double>(collisions);
@@ -230,40 +168,9 @@ void collide(const AggregatesCase& made, std::uint64_t repeat, Rows& rows, std::
 
 }  // namespace
 
-const std::vector<Quantity>& aggregateQuantities() {
-  static const std::vector<Quantity> all{
-      {"number", "1/m^3", "number density of particles, of collisions"},
-      {"aggregates", "1", "particles of a repeat"},
-      {"spheres", "1", "spheres of a particle"},
-      {"largest", "1", "spheres of the largest particle"},
-      {"volume", "m^3", "volume of a particle"},
-      {"surface", "m^2", "free surface of a particle"},
-      {"radius", "m", "radius of a sphere"},
-      {"radius_deviation", "1", "geometric standard deviation of that radius"},
-      {"neck_ratio", "1", "radius of a neck over that of the smaller sphere"},
-      {"gyration", "m", "radius of gyration, root of the mean square"},
-      {"gyration_points", "m", "the same with the mass of each sphere in its centre"},
-      {"length", "m", "largest distance of two points of a particle"},
-      {"shadow", "m^2", "projected area of a particle"},
-      {"mobility_diameter", "m", "diameter of the sphere with that area"},
-      {"collision_diameter", "m", "diameter of collision, of collisions"},
-      {"coordination", "1", "neighbours of a sphere"},
-      {"overlap", "1", "volume shared by spheres that are not neighbours, over the volume of all"},
-      {"fractal_dimension", "1",
-       "D of n = k (R_g/a)^D over the particles with output.fit_from spheres; while aggregates are built of all sizes "
-       "so far"},
-      {"fractal_dimension_fit", "1", "standard error of D of the fit of a repeat"},
-      {"fractal_prefactor", "1", "k of that law"},
-      {"fractal_prefactor_fit", "1", "standard error of k of the fit of a repeat"},
-      {"fitted", "1", "particles in the fit"},
-      {"lines", "1", "straight lines drawn for a collision"},
-      {"merged", "1", "spheres that have become one with a neighbour"}};
-  return all;
-}
-
 void runAggregates(const AggregatesCase& made, std::uint64_t repeat, std::span<double> rows,
                    std::vector<SphereAggregate>* last) {
-  std::ranges::fill(rows, nothing);
+  std::ranges::fill(rows, nothingToSay);
   Rows to(made, repeat, rows);
   std::vector<SphereAggregate> all;
   try {
@@ -285,4 +192,4 @@ void runAggregates(const AggregatesCase& made, std::uint64_t repeat, std::span<d
   *last = std::move(all);
 }
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles

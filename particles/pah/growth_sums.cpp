@@ -1,4 +1,4 @@
-#include "app/problems/pah/growth_sums.hpp"
+#include "particles/pah/growth_sums.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "core/errors.hpp"
 
-namespace lampblack::app {
+namespace lampblack::particles {
 namespace {
 
 constexpr double missingValue = std::numeric_limits<double>::quiet_NaN();
@@ -215,4 +215,4 @@ double GrowthSums::standardError(std::size_t row, std::size_t quantity) const {
   return std::sqrt(spread / (count * count * (count - 1)));
 }
 
-}  // namespace lampblack::app
+}  // namespace lampblack::particles
