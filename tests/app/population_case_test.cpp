@@ -233,7 +233,7 @@ TEST(PopulationCase, ASampleThatMissesMomentsIsTold) {
   MethodStatistics method;
   method.name = "one";
   method.repeats.resize(20);
-  Moments known{}, error{};
+  FourMoments known{}, error{};
   for (std::size_t k = 0; k < 4; ++k) known[k] = initialMoment(made.initial, static_cast<double>(k));
   for (std::size_t k = 0; k < 4; ++k) error[k] = 0.002 * known[k];
   method.mean = {known};
