@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +11,9 @@
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/sample_deck.hpp"
 #include "app/deck/tree_material_deck.hpp"
+#include "app/deck/two_columns.hpp"
 #include "chemistry/mechanism/known_species.hpp"
+#include "core/constants.hpp"
 #include "io/deck_keys.hpp"
 #include "particles/pah/molecule.hpp"
 #include "particles/pah/named_molecules.hpp"
@@ -39,10 +42,18 @@ DeckKeys<MoleculeOptions> collisionKeys() {
   DeckKeys<MoleculeOptions> keys(section);
   keys.choice(
       "inception", &Options::inception,
-      {{"pairs", Options::Inception::pairs}, {"as_in_gas", Options::Inception::asInGas}}, rules().byDefault("pairs"),
+      {{"pairs", Options::Inception::pairs},
+       {"as_in_gas", Options::Inception::asInGas},
+       {"by_formation", Options::Inception::byFormation}},
+      rules().byDefault("pairs"),
       "How molecules of the gas become particles. pairs: two that collide and stick are a particle, and single ones "
       "condense on particles; as_in_gas: as many particles of one molecule are there as the gas has molecules of "
-      "particles.pah, and meet others as particles do, in a gas that stays as it is given: prescribed_gas, one way.");
+      "particles.pah, and meet others as particles do, in a gas that stays as it is given: prescribed_gas, one way; "
+      "by_formation: each molecule that the gas forms (formation) is a particle, in such a gas.");
+  keys.text("formation", rules().optional().onlyWith(section + ".inception", {"by_formation"}),
+            "Table of two columns: time since the particles set out, and rate at which the gas forms molecules of "
+            "particles.pah, \"time [s], formation [mol/m^3/s]\"; straight in between, none outside and where it is "
+            "below zero. Relative to the deck.");
   keys.number("inception_efficiency", &Options::inceptionEfficiency,
               rules().byDefault("1").atLeast(0).atMost(1).onlyWith(section + ".inception", {"pairs"}),
               "Factor of the collisions of pairs that become a particle, besides what sticks.");
@@ -78,6 +89,21 @@ void readConstants(const Deck& deck, MoleculeSticking& sticking) {
   sticking.B = constants[1];
   sticking.C = constants[2];
   if (!(sticking.B > 0)) throw deck.error(key, "expected B above zero");
+}
+
+NucleationOptions readFormation(const Deck& deck) {
+  const std::string key = section + ".formation";
+  if (!deck.has(key)) throw deck.error(section + ".inception", "by_formation needs formation, a table over time");
+  return deck.at(key, [&] {
+    TwoColumns table =
+        readTwoColumns(deck.resolvePath(deck.string(key)), units::time, units::concentration / units::time,
+                       "time [s], formation [mol/m^3/s]", [](double) {});
+    NucleationOptions formation;
+    formation.source = NucleationOptions::Source::table;
+    formation.times = std::move(table.points);
+    for (const double rate : table.values) formation.rates.push_back(std::max(rate, 0.0) * constants::avogadro);
+    return formation;
+  });
 }
 
 // Where the gas is as given, whatever particles take.
@@ -149,14 +175,16 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
   o.precursor = readPrecursor(deck, mechanism, o.rings);
   using Inception = MoleculeOptions::Inception;
   const std::string inception = section + ".inception";
-  if (o.inception == Inception::asInGas && !isGasGiven(deck))
-    throw deck.error(inception,
-                     "as_in_gas needs a gas that stays as it is given, 'problem: prescribed_gas' with 'exchange: "
-                     "one_way'; where particles take from the gas, use 'pairs'");
-  if (o.inception == Inception::asInGas && deck.isGiven("particles.condensation"))
-    throw deck.error("particles.condensation",
-                     "has no meaning with 'inception: as_in_gas', where molecules are particles that collide; leave it "
-                     "out, or set particles.coagulation");
+  const std::string how = deck.choice(inception);
+  if (o.inception != Inception::pairs && !isGasGiven(deck))
+    throw deck.error(inception, how +
+                                    " needs a gas that stays as it is given, 'problem: prescribed_gas' with 'exchange: "
+                                    "one_way'; where particles take from the gas, use 'pairs'");
+  if (o.inception != Inception::pairs && deck.isGiven("particles.condensation"))
+    throw deck.error("particles.condensation", "has no meaning with 'inception: " + how +
+                                                   "', where molecules are particles that collide; leave it out, or "
+                                                   "set particles.coagulation");
+  if (o.inception == Inception::byFormation) o.formation = readFormation(deck);
   if (!deck.boolean("particles.condensation") && o.inception == Inception::pairs) o.condensationEfficiency = 0;
   if (!deck.boolean("particles.inception")) o.inception = Inception::none;
   if (o.sticking.rule == MoleculeSticking::Rule::bySize) readConstants(deck, o.sticking);

@@ -13,7 +13,7 @@ const std::vector<ProcessOf<MoleculeExchange>>& happenings() {
   using E = MoleculeExchange;
   static const SpeciesExchanged molecule{{MoleculeOptions::precursorAt}, {}};
   static const std::vector<ProcessOf<E>> all{
-      {{{"inceptions", "1/m^3", "pairs of molecules that became a particle"}, molecule}, &E::inceptions},
+      {{{"inceptions", "1/m^3", "molecules, or pairs of them, that became a particle"}, molecule}, &E::inceptions},
       {{{"coagulations", "1/m^3", "collisions of particles that stuck"}}, &E::coagulations},
       {{{"condensations", "1/m^3", "molecules of the gas that condensed on a particle"}, molecule}, &E::condensations},
       {{{"came", "1/m^3", "single molecules that came as the gas had more of them"}}, &E::came},

@@ -13,6 +13,7 @@
 #include "particles/pah/lattice.hpp"
 #include "particles/pah/pah_rates.hpp"
 #include "particles/population/model/collision_kernel.hpp"
+#include "particles/population/model/population_model.hpp"
 #include "particles/trees/tree_material.hpp"
 
 namespace lampblack::particles {
@@ -22,7 +23,9 @@ struct MoleculeOptions {
   std::vector<LatticeCell> rings;  // of such a molecule
   // How they become particles. pairs: two that collide are a particle, and single ones condense on particles. asInGas:
   // as many single ones are particles as the gas has, and all meet as particles do; the gas stays as it is given.
-  enum class Inception { none, pairs, asInGas } inception = Inception::pairs;
+  // byFormation: each one that is formed is a particle.
+  enum class Inception { none, pairs, asInGas, byFormation } inception = Inception::pairs;
+  NucleationOptions formation;  // of byFormation, over the time since the population began
   double inceptionEfficiency = 1, condensationEfficiency = 1;  // factors of what sticks
   MoleculeSticking sticking;
   // Factor of all rates of a molecule in a primary with `growthFactorFrom` of them or more.

@@ -29,6 +29,7 @@ MoleculePopulation::MoleculePopulation(const MoleculeOptions& options)
       hydrogenOfGas_(static_cast<double>(ofGas_->hydrogen())),
       random_(options.seed, options.owner, moleculeStream),
       method_(type_, modelOfSample(options), InitialPopulation{}, monteCarloOfSample(options), random_),
+      formation_(options_.formation),
       sintering_(type_.trees(), options.sinteringTolerance),
       single_(ofGas(1)) {
   sintering_.tell(&fusions_);
@@ -63,7 +64,12 @@ double MoleculePopulation::condensation(const MoleculeParticle& p) const {
   return sticks > 0 ? sticks * gasNumber_ * kernel_->value(properties(p), one_) : 0;
 }
 
-double MoleculePopulation::inception() const {
+double MoleculePopulation::inception(double dt) const {
+  if (options_.inception == MoleculeOptions::Inception::byFormation) {
+    const double now = type_.trees().clock();
+    return (formation_.cumulative(now + dt) - formation_.cumulative(now)) / dt;
+  }
+  if (!isPairs()) return 0;
   const double sticks = options_.inceptionEfficiency * type_.sticking(*single_, *single_);
   return 0.5 * sticks * gasNumber_ * gasNumber_ * kernel_->value(one_, one_);
 }
@@ -71,7 +77,7 @@ double MoleculePopulation::inception() const {
 // By the share of particles that collide, and of the carbon of all that comes, goes and reacts in a step.
 double MoleculePopulation::stepLength(double remaining) const {
   double rate = 0;
-  const bool pairs = options_.inception == MoleculeOptions::Inception::pairs;
+  const bool pairs = isPairs();
   if (size() > 0) {
     double carbon = 0, moved = 0;
     forEach([&](const MoleculeParticle& p, double) {
@@ -88,19 +94,18 @@ double MoleculePopulation::stepLength(double remaining) const {
     if (options_.coagulation) rate = std::max(rate, method_.coagulationRate() / static_cast<double>(size()));
   }
   // So many births as a sample has room for.
-  if (pairs) rate = std::max(rate, inception() / (method_.weight() * static_cast<double>(options_.particles)));
+  rate = std::max(rate, inception(remaining) / (method_.weight() * static_cast<double>(options_.particles)));
   return rate > 0 ? std::min(remaining, options_.splitTolerance / rate) : remaining;
 }
 
 void MoleculePopulation::advance(const ParticleGas& gas, double dt) {
   if (!(dt > 0)) return;
   setGas(gas);
-  const bool pairs = options_.inception == MoleculeOptions::Inception::pairs;
   if (size() == 0) {
     method_.startAfresh(options_.fullAt / static_cast<double>(options_.particles));
     births_.startAfresh();
   }
-  method_.setNucleus(pairs ? ofGas(2) : *single_);
+  method_.setNucleus(isPairs() ? ofGas(2) : *single_);
   cost_ = 0;
   const PopulationCounters before = counters();
   followGas();
@@ -128,11 +133,11 @@ void MoleculePopulation::Events::giveBirth() {
   of.method_.nucleate(of.random_);
   of.births_.bear(weight, of.method_.weight(), of.random_);
   of.exchange_.inceptions += weight;
-  of.recordMolecules(2 * weight, 1);
+  of.recordMolecules((of.isPairs() ? 2 : 1) * weight, 1);
 }
 
 void MoleculePopulation::jump(double dt) {
-  births_.setRate(options_.inception == MoleculeOptions::Inception::pairs ? inception() : 0);
+  births_.setRate(inception(dt));
   births_.plan(method_.weight(), random_);
   double time = type_.trees().clock();
   const double end = time + dt;
@@ -197,7 +202,7 @@ void MoleculePopulation::change(double dt) {
   if (size() == 0) return;
   events_ = {};
   condensed_ = 0;
-  const bool condenses = options_.inception == MoleculeOptions::Inception::pairs;
+  const bool condenses = isPairs();
   const double weight = method_.weight();
   method_.changeParticles([&](MoleculeParticle& p, double) {
     if (condenses)

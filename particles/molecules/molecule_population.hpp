@@ -22,6 +22,7 @@
 #include "particles/molecules/molecule_particles.hpp"
 #include "particles/pah/molecule_growth.hpp"
 #include "particles/population/engine/even_births.hpp"
+#include "particles/population/model/nucleation_schedule.hpp"
 #include "particles/population/monte_carlo/class_store.hpp"
 #include "particles/population/monte_carlo/equal_weight_method.hpp"
 #include "particles/stochastic/particle_rows.hpp"
@@ -113,7 +114,8 @@ class MoleculePopulation {
   }
   // 1/s, at which molecules of the gas condense on it.
   [[nodiscard]] double condensation(const MoleculeParticle& p) const;
-  [[nodiscard]] double inception() const;  // 1/m3/s
+  // 1/m3/s, of particles that are born, mean over dt from now.
+  [[nodiscard]] double inception(double dt) const;
   [[nodiscard]] double stepLength(double remaining) const;
   void jump(double dt);
   void change(double dt);
@@ -122,6 +124,7 @@ class MoleculePopulation {
   void sinter(MoleculeParticle& p, double dt);
   // Single molecules as the gas has them.
   void followGas();
+  [[nodiscard]] bool isPairs() const { return options_.inception == MoleculeOptions::Inception::pairs; }
   [[nodiscard]] bool isOfGas(const MoleculeParticle& p) const {
     return p.molecules == 1 && p.carbon() == carbonOfGas_ && p.hydrogen() == hydrogenOfGas_;
   }
@@ -137,6 +140,7 @@ class MoleculePopulation {
   RandomStream random_;
   Method method_;
   EvenBirths births_;
+  NucleationSchedule formation_;
   TreeSintering sintering_;
   std::vector<FusedPrimaries> fusions_;
   std::optional<CollisionKernel> kernel_;

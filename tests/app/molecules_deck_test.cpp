@@ -123,6 +123,7 @@ TEST(MoleculesDeck, MistakesAreTold) {
     return test::messageOf<InputError>([&] { (void)readPopulation(moleculesDeck(particles), mechanism); });
   };
   EXPECT_THAT(message("  molecules: {inception: as_in_gas}\n"), testing::HasSubstr("prescribed_gas"));
+  EXPECT_THAT(message("  molecules: {inception: by_formation}\n"), testing::HasSubstr("prescribed_gas"));
   EXPECT_THAT(message("  molecules: {molecule: coronene}\n"), testing::HasSubstr("the molecule it is taken for"));
   EXPECT_THAT(message("  oh_efficiency: 0.1\n"), testing::HasSubstr("leave it out"));
   EXPECT_THAT(message("  surface: {bounded: true}\n"), testing::HasSubstr("has no meaning"));

@@ -250,6 +250,7 @@ def check_refusals(program, folder: pathlib.Path) -> list:
                            ("particles.molecules.molecule=buckminsterfullerene", "particles.molecules.molecule"),
                            ("particles.molecules.sticks=by_size", "sticking_constants"),
                            ("particles.molecules.processes=[G7R]", "particles.molecules.processes"),
+                           ("particles.molecules.inception=by_formation", "by_formation needs formation"),
                            ("particles.molecules.growth_factor=1.5", "particles.molecules.growth_factor"),
                            ("particles.material=silica", "particles.pah"))[::every]:
         result = program("run", MOLECULES / "deck.yaml", "--out", folder / "never", *running.settings(setting))

@@ -197,6 +197,27 @@ TEST(MoleculePopulation, HasAsManySingleMoleculesAsTheGas) {
   EXPECT_GT(population.counters().removals, 0u);  // it was full
 }
 
+// A rate that rises from 0.1 to 0.3 us and falls until 0.5 us, with steps that do not end there.
+TEST(MoleculePopulation, EachMoleculeThatIsFormedIsAParticle) {
+  MoleculeOptions o = inert(singlePyrene());
+  o.inception = Inception::byFormation;
+  o.atStart = 0;
+  o.fullAt = 1e16;
+  o.formation = {.source = NucleationOptions::Source::table, .times = {1e-7, 3e-7, 5e-7}, .rates = {0, 4e22, 0}};
+  MoleculePopulation population(o);
+  const MoleculeGas gas(1e-5);
+  for (const auto& [dt, formed] : {std::pair{0.2e-6, 1e15}, {0.05e-6, 2.25e15}, {0.15e-6, 7e15}, {1e-6, 8e15}}) {
+    population.advance(gas.state, dt);
+    const MoleculeTotals totals = population.totals();
+    EXPECT_NEAR(totals.number, formed, 1.01 * population.weight());
+    EXPECT_DOUBLE_EQ(totals.single, totals.number);
+  }
+  const MoleculeExchange e = population.takeExchange();
+  EXPECT_NEAR(e.inceptions, 8e15, 1.01 * population.weight());
+  EXPECT_NEAR(e.gas.back() * constants::avogadro, -e.inceptions, 1e-9 * e.inceptions);
+  EXPECT_EQ(e.condensations, 0);
+}
+
 // Few rings do not stick.
 TEST(MoleculePopulation, CollidesAsMoleculesStick) {
   MoleculeOptions o = inert(singlePyrene());
