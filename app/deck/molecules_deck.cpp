@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,7 +17,11 @@
 #include "app/deck/two_columns.hpp"
 #include "chemistry/mechanism/known_species.hpp"
 #include "core/constants.hpp"
+#include "core/errors.hpp"
+#include "core/text_file.hpp"
+#include "io/csv.hpp"
 #include "io/deck_keys.hpp"
+#include "io/table_column.hpp"
 #include "particles/pah/molecule.hpp"
 #include "particles/pah/named_molecules.hpp"
 
@@ -30,10 +37,10 @@ std::string names(const std::vector<std::string>& all) {
 }
 
 // Those of other descriptions of soot that mean nothing here.
-constexpr const char* meaningless[] = {"particles.sticking",      "particles.alpha",        "particles.site_density",
-                                       "particles.oh_efficiency", "particles.inception_by", "particles.heavy_particles",
-                                       "particles.keep_hydrogen", "particles.active_sites", "particles.surface",
-                                       "particles.alpha_table"};
+constexpr const char* meaningless[] = {
+    "particles.sticking",     "particles.alpha",           "particles.site_density",     "particles.oh_efficiency",
+    "particles.inception_by", "particles.heavy_particles", "particles.keep_hydrogen",    "particles.active_sites",
+    "particles.surface",      "particles.alpha_table",     "particles.dimer_equilibrium"};
 
 DeckKeys<MoleculeOptions> collisionKeys() {
   using Options = MoleculeOptions;
@@ -66,19 +73,63 @@ DeckKeys<MoleculeOptions> collisionKeys() {
                {"larger", Rule::larger},
                {"together", Rule::together},
                {"reduced", Rule::reduced},
-               {"by_size", Rule::bySize}},
+               {"by_size", Rule::bySize},
+               {"by_table", Rule::byTable}},
               rules().byDefault("always"),
               "Which molecules stick to each other and to particles, of which the largest molecule counts: all; where "
               "the smaller one, the larger one, both together, or the product over the sum of both has sticking_rings; "
               "by_size: with the probability 1/(1 + exp(-A (d^3/m + (m/B)^6 - C))) of the smaller one, d in Angstrom, "
-              "m = 12 times its carbon atoms. Particles of several molecules always stick to each other.");
+              "m = 12 times its carbon atoms; by_table: with that of sticking_table at the temperature and the smaller one's "
+              "carbon atoms. Particles of several molecules always stick to each other.");
   keys.number(
       "sticking_rings", sticking(&MoleculeSticking::rings),
       rules().byDefault("0").atLeast(0).onlyWith(section + ".sticks", {"smaller", "larger", "together", "reduced"}),
       "Rings that are needed to stick.");
+  keys.text("sticking_table", rules().optional().onlyWith(section + ".sticks", {"by_table"}),
+            "Table with columns temperature, carbon (atoms) and probability, all pairs of the temperatures and numbers "
+            "of atoms in it; straight in between, as at its ends beyond. Relative to the deck.");
   keys.number("sticking_constants", rules().list(3).optional().onlyWith(section + ".sticks", {"by_size"}),
               "A, B and C of by_size.");
   return keys;
+}
+
+// Rows in any order.
+void readStickingTable(const std::filesystem::path& file, MoleculeSticking& sticking) {
+  const TextTable table = readCsv(readTextFile(file, "a table of sticking"));
+  std::map<std::pair<double, double>, double> found;
+  struct Column {
+    const char* name;
+    units::Dimension dimension;
+    std::size_t at = 0;
+  };
+  Column columns[] = {
+      {"temperature", units::temperature}, {"carbon", units::dimensionless}, {"probability", units::dimensionless}};
+  std::vector<TableColumn> readers;
+  for (Column& one : columns) {
+    const auto at = std::ranges::find(table.columns, one.name, [](const auto& c) { return nameAndUnit(c).first; });
+    if (at == table.columns.end()) throw InputError(fmt::format("{}: expected a column '{}'", file.string(), one.name));
+    one.at = static_cast<std::size_t>(at - table.columns.begin());
+    readers.emplace_back(one.name, nameAndUnit(*at).second, one.dimension);
+  }
+  for (std::size_t row = 0; row < table.rows.size(); ++row) {
+    const auto value = [&](std::size_t c) { return readers[c].read(table.rows[row][columns[c].at], table.lines[row]); };
+    if (!found.try_emplace({value(0), value(1)}, value(2)).second)
+      throw InputError(
+          fmt::format("{}: line {}: a second row of this temperature and carbon", file.string(), table.lines[row]));
+  }
+  std::set<double> temperatures, carbons;
+  for (const auto& [at, probability] : found) {
+    temperatures.insert(at.first);
+    carbons.insert(at.second);
+    sticking.probabilities.push_back(probability);
+  }
+  sticking.temperatures.assign(temperatures.begin(), temperatures.end());
+  sticking.carbons.assign(carbons.begin(), carbons.end());
+  if (found.empty() || found.size() != temperatures.size() * carbons.size())
+    throw InputError(
+        fmt::format("{}: expected a row for each of {} temperatures with each of {} numbers of carbon "
+                    "atoms, found {}",
+                    file.string(), temperatures.size(), carbons.size(), found.size()));
 }
 
 void readConstants(const Deck& deck, MoleculeSticking& sticking) {
@@ -188,6 +239,24 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
   if (!deck.boolean("particles.condensation") && o.inception == Inception::pairs) o.condensationEfficiency = 0;
   if (!deck.boolean("particles.inception")) o.inception = Inception::none;
   if (o.sticking.rule == MoleculeSticking::Rule::bySize) readConstants(deck, o.sticking);
+  if (o.sticking.rule == MoleculeSticking::Rule::byTable) {
+    const std::string table = section + ".sticking_table";
+    if (!deck.has(table)) throw deck.error(section + ".sticks", "by_table needs sticking_table");
+    deck.at(table, [&] {
+      readStickingTable(deck.resolvePath(deck.string(table)), o.sticking);
+      return 0;
+    });
+  }
+  if (const std::string key = section + ".band_gap"; deck.has(key))
+    deck.at(key, [&] {
+      TwoColumns table = readTwoColumns(deck.resolvePath(deck.string(key)), units::dimensionless, units::dimensionless,
+                                        "carbon, band_gap", [](double gap) {
+                                          if (gap < 0) throw InputError("a band gap may not be below zero");
+                                        });
+      o.bandGapCarbons = std::move(table.points);
+      o.bandGaps = std::move(table.values);
+      return 0;
+    });
   for (const char* key : {"particles.sintering", "particles.fractal_dimension"})
     if (o.spheres && deck.isGiven(key))
       throw deck.error(key, "has no meaning with 'shape: spheres', whose particles have one primary; leave it out");

@@ -55,6 +55,9 @@ DeckKeys<SootModelOptions> inceptionKeys() {
       rules().byDefault("dimers"),
       "What makes a nucleus and condenses. dimers: two dimers of PAH in steady state (Blanquart and Pitsch 2009); "
       "monomers: two molecules of the one PAH, at the rate of all their collisions in the transition regime.");
+  keys.number("dimer_equilibrium", rules().list(3).optional().onlyWith("particles.inception_by", {"dimers"}),
+              "Dimers come apart again: [dimers]/[PAH]^2 in equilibrium, A T^n exp(-E/(R T)), A in cm^3/mol, n, E in "
+              "kcal/mol, E below zero for what binds; one for all pairs. Absent: dimers stay.");
   keys.quantity("monomer_mass", units::mass, &Options::monomerMass,
                 rules().optional().above(0).onlyWith("particles.inception_by", {"monomers"}),
                 "Mass of a monomer as it collides; absent: that of its atoms.");
@@ -205,6 +208,10 @@ SootModelOptions readSootModelOptions(const Deck& deck, const Mechanism& mechani
   physicsKeys().read(deck, options, "particles");
   inceptionKeys().read(deck, options, "particles");
   options.vanDerWaals = deck.number("particles.van_der_waals");
+  if (deck.has("particles.dimer_equilibrium")) {
+    options.dimerEquilibrium = readRate(deck, "particles.dimer_equilibrium");
+    if (!(options.dimerEquilibrium->A > 0)) throw deck.error("particles.dimer_equilibrium", "expected A above zero");
+  }
   options.slip = deck.choice("particles.slip") == "air" ? SlipLaw::air : SlipLaw::davies;
   readSurfaceRates(deck, options.surface);
   options.coagulation = deck.boolean("particles.coagulation");
@@ -228,7 +235,8 @@ std::unique_ptr<ParticleModel> readSootModel(const Deck& deck, const Mechanism& 
                                              const std::vector<SootModelEntry>& models) {
   requireDescription(deck);
   if (carriedModel(deck) == "none") return nullptr;
-  for (const char* key : {"particles.inception_by", "particles.heavy_particles", "particles.slip"})
+  for (const char* key :
+       {"particles.inception_by", "particles.dimer_equilibrium", "particles.heavy_particles", "particles.slip"})
     if (deck.isGiven(key))
       throw deck.error(key, fmt::format("a model that the gas carries does not have this; leave it out, or '{}'",
                                         carriedModelKey(deck)));

@@ -89,6 +89,8 @@ struct SootModelOptions {
   double hydrogenWeight = 1.008e-3;  // kg/mol
   SurfaceRateConstants surface = {};
   InceptionBy inceptionBy = InceptionBy::dimers;
+  // [dimers]/[PAH]^2 in equilibrium, cm3/mol: dimers also come apart (ensembles and trees). Absent: they do not.
+  std::optional<RateConstant> dimerEquilibrium = {};
   // Of a monomer as it collides: kg, m; zero: that of its atoms, and of the sphere of soot density.
   double monomerMass = 0, monomerDiameter = 0;
   // Dimers or monomers collide with particles as if these were at rest, 1/m in place of 1/m + 1/M, as the program MOpS

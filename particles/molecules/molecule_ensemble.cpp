@@ -33,7 +33,7 @@ MoleculeOptions ofMechanism(const Mechanism& mechanism, MoleculeOptions options)
 }
 
 // Behind those of trees.
-enum Which : std::size_t { moleculesOf, ringsOf };
+enum Which : std::size_t { moleculesOf, ringsOf, bandGapOf };
 
 }  // namespace
 
@@ -49,6 +49,8 @@ MoleculeEnsemble::MoleculeEnsemble(const Mechanism& mechanism, const MoleculeOpt
   using Use = ParticleFunctional::Use;
   functionals_.push_back({{"molecules", "1", "molecules in a particle"}, Use::plain, true});
   functionals_.push_back({{"molecule_rings", "1", "mean number of rings of the particle's molecules"}, Use::plain});
+  if (!options_.bandGaps.empty())
+    functionals_.push_back({{"band_gap", "eV", "optical band gap of the particle's largest molecule"}, Use::plain});
 }
 
 MoleculeEnsemble::~MoleculeEnsemble() = default;
@@ -166,7 +168,14 @@ double MoleculeEnsemble::functional(std::size_t which, const double* row) const 
   const MoleculeRow fixed = MoleculeRow::of(row);
   if (which == TreeFunctionals::collisionDiameter) return fixed.collision;
   if (which < ofTrees_.size()) return ofTrees_.of(MoleculeRow::treeOf(row), which);
-  return which - ofTrees_.size() == moleculesOf ? fixed.molecules : fixed.rings / fixed.molecules;
+  switch (which - ofTrees_.size()) {
+    case moleculesOf:
+      return fixed.molecules;
+    case ringsOf:
+      return fixed.rings / fixed.molecules;
+    default:
+      return options_.bandGap(fixed.mostCarbon);
+  }
 }
 
 void MoleculeEnsemble::forEachRow(const std::function<void(const double* row)>& f) const {

@@ -77,6 +77,8 @@ std::vector<Quantity> MoleculeEnsemble::columns() const {
   all.push_back(
       {"soot_void_events", "1/m^3", "events at sites where another ring was in the way, since the beginning"});
   all.push_back({"soot_numerical_particles", "1", "numerical particles of the sample"});
+  if (!options_.bandGaps.empty())
+    all.push_back({"soot_band_gap", "eV", "optical band gap of a particle's largest molecule, mean over particles"});
   return all;
 }
 
@@ -107,6 +109,12 @@ std::vector<double> MoleculeEnsemble::values(const ParticleGas&) const {
   }
   values.push_back(voids);
   values.push_back(static_cast<double>(molecules_->size()));
+  if (!options_.bandGaps.empty()) {
+    double sum = 0;
+    molecules_->forEach(
+        [&](const MoleculeParticle& p, double number) { sum += number * options_.bandGap(p.mostCarbon); });
+    values.push_back(perParticle(sum));
+  }
   return values;
 }
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "core/errors.hpp"
 #include "particles/pah/molecule.hpp"
@@ -18,6 +20,11 @@ TreeMaterial MoleculeOptions::material() const {
   m.fractalDimension = fractalDimension;
   m.sintering = sintering;
   return m;
+}
+
+double MoleculeOptions::bandGap(double carbon) const {
+  const MoleculeSticking::Place at = MoleculeSticking::placeOf(bandGapCarbons, carbon);
+  return (1 - at.share) * bandGaps[at.first] + at.share * bandGaps[at.second];
 }
 
 std::vector<std::string> MoleculeOptions::species() const {
@@ -36,6 +43,15 @@ void requireMolecules(const MoleculeOptions& o) {
           "the growth factor and the efficiencies of collisions of molecules need to be in [0, 1]");
   require(o.sticking.rings >= 0 && (o.sticking.rule != MoleculeSticking::Rule::bySize || o.sticking.B > 0),
           "the constants of sticking may not be below zero, and B has to be above it");
+  if (o.sticking.rule == MoleculeSticking::Rule::byTable) {
+    const MoleculeSticking& s = o.sticking;
+    require(!s.temperatures.empty() && !s.carbons.empty() &&
+                s.probabilities.size() == s.temperatures.size() * s.carbons.size() &&
+                std::ranges::all_of(s.probabilities, isPart),
+            "a table of sticking needs a probability in [0, 1] for each temperature and number of carbon atoms");
+    for (const auto* points : {&s.temperatures, &s.carbons})
+      require(std::ranges::is_sorted(*points, std::less_equal{}), "the points of a table of sticking have to rise");
+  }
   require(o.particles >= 8, "at least 8 numerical particles are needed");
   require(o.splitTolerance > 0 && o.splitTolerance <= 1 && o.fullAt > 0,
           "the split tolerance needs to be in (0, 1], the number density of a full sample positive");

@@ -28,6 +28,8 @@ struct MoleculeOptions {
   NucleationOptions formation;  // of byFormation, over the time since the population began
   double inceptionEfficiency = 1, condensationEfficiency = 1;  // factors of what sticks
   MoleculeSticking sticking;
+  // eV, of a molecule by its carbon atoms: points that rise, straight in between. Empty: nothing is said of it.
+  std::vector<double> bandGapCarbons = {}, bandGaps = {};
   // Factor of all rates of a molecule in a primary with `growthFactorFrom` of them or more.
   double growthFactor = 1;
   std::size_t growthFactorFrom = 2;
@@ -55,6 +57,8 @@ struct MoleculeOptions {
   double atStart = 0;            // 1/m3, single molecules that are there from the beginning
 
   [[nodiscard]] TreeMaterial material() const;
+  // eV, of a molecule of so many carbon atoms; as at the ends beyond the points.
+  [[nodiscard]] double bandGap(double carbon) const;
   // Species of the gas: those of soot, then the precursor.
   [[nodiscard]] std::vector<std::string> species() const;
   static constexpr std::size_t precursorAt = SootSpecies::fixed;

@@ -41,9 +41,13 @@ class MoleculeParticles {
   static constexpr bool moreThanVolume = true;
 
   MoleculeParticles(const TreeMaterial& material, const MoleculeSticking& sticking, bool spheres)
-      : trees_(material, CollisionSize::volumeToSurface), sticking_(sticking), spheres_(spheres) {}
+      : trees_(material, CollisionSize::volumeToSurface),
+        sticking_(std::make_shared<MoleculeSticking>(sticking)),
+        spheres_(spheres) {}
 
   [[nodiscard]] const PrimaryTrees& trees() const { return trees_; }
+  // K, of the gas in which molecules meet, for this and its copies.
+  void setTemperature(double temperature) { sticking_->setTemperature(temperature); }
 
   [[nodiscard]] double volume(const Particle& p) const { return p.tree.head().volume; }
   [[nodiscard]] double mass(const Particle& p) const { return trees_.mass(p.tree); }
@@ -53,7 +57,7 @@ class MoleculeParticles {
   // Two particles of several molecules always stick.
   [[nodiscard]] double sticking(const Particle& p, const Particle& q) const {
     if (p.molecules > 1 && q.molecules > 1) return 1;
-    return sticking_.probability(partner(p), partner(q));
+    return sticking_->probability(partner(p), partner(q));
   }
 
   // One primary of these.
@@ -74,7 +78,7 @@ class MoleculeParticles {
     return {static_cast<double>(p.mostRings), static_cast<double>(p.mostCarbon)};
   }
   PrimaryTrees trees_;
-  MoleculeSticking sticking_;
+  std::shared_ptr<MoleculeSticking> sticking_;
   bool spheres_;
 };
 

@@ -55,6 +55,7 @@ void MoleculePopulation::setGas(const ParticleGas& gas) {
     if (!options_.active[p]) outside_[p] = 0;
     inside_[p] = options_.growthFactor * outside_[p];
   }
+  type_.setTemperature(gas.temperature);
   gasNumber_ = std::max(gas.concentrations[MoleculeOptions::precursorAt], 0.0) * constants::avogadro;
   sintering_.setTemperature(gas.temperature);
 }

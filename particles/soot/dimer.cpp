@@ -23,6 +23,7 @@ DimerModel::DimerModel(const SootModelOptions& options)
       hydrogenMass_(options.hydrogenWeight / constants::avogadro),
       sootDensity_(options.sootDensity),
       vanDerWaals_(options.vanDerWaals),
+      equilibrium_(options.dimerEquilibrium),
       consumes_(!options.pah.empty() && (options.inception || options.condensation)) {
   const std::size_t n = options.pah.size();
   if (n > maximumPahSpecies) {
@@ -61,6 +62,14 @@ void DimerModel::lossRates(double temperature, std::span<const double> pah, PahA
     for (std::size_t j = 0; j < n; ++j) sum += pair_[i * n + j] * std::max(pah[j], 0.0);
     loss[i] = root * sum;
   }
+}
+
+double DimerModel::breaking(double temperature, double rate, std::span<const double> pah) const {
+  double sum = 0;
+  for (const double c : pah) sum += std::max(c, 0.0);
+  if (!equilibrium_ || !(sum > 0)) return 0;
+  const double K = 1e-6 * valueAt(*equilibrium_, std::log(temperature), 1 / (constants::gasConstant * temperature));
+  return rate / (constants::avogadro * K * sum * sum);
 }
 
 DimerProduction DimerModel::production(double temperature, std::span<const double> consumption) const {

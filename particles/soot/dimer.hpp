@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,6 +46,10 @@ class DimerModel {
   // `consumption`: what each PAH loses, mol/m3/s, from which the rate and mean dimer follow: mass is conserved exactly.
   [[nodiscard]] DimerProduction production(double temperature, std::span<const double> consumption) const;
 
+  // 1/s, at which dimers come apart, so that without other losses they are in equilibrium with all PAH (mol/m3), one
+  // constant for all pairs: zero without it.
+  [[nodiscard]] double breaking(double temperature, double rate, std::span<const double> pah) const;
+
   // Free-molecular collision rate of a dimer with a particle, m3/s, `prefactor` by freeMolecularPrefactor.
   [[nodiscard]] static double particleCollision(const DimerProduction& dimer, double prefactor, double mass,
                                                 double diameter) {
@@ -56,6 +61,7 @@ class DimerModel {
   std::vector<double> pair_;  // gamma_ij beta_ij N_A / sqrt(T), row-major, m3/mol/s/K^0.5
   double carbonMass_, hydrogenMass_, sootDensity_, vanDerWaals_;
   double smallestNucleus_ = 1;
+  std::optional<RateConstant> equilibrium_;
   bool consumes_;
 };
 

@@ -59,6 +59,7 @@ void SootMedium::takeDimers(const DimerModel& dimers, std::span<const double> co
   for (std::size_t i = 0; i < n; ++i) sum += consumption[i] *= concentrations[i];
   dimer_ = dimers.production(gas_.temperature, {consumption.data(), n});
   if (!(dimer_.rate > 0)) return;
+  breaking_ = dimers.breaking(gas_.temperature, dimer_.rate, concentrations);
   for (std::size_t i = 0; i < n; ++i) pahOfDimer_[i] = 2 * consumption[i] / sum;
   // By the PAH that are taken, so that atoms are counted to round-off.
   for (std::size_t i = 0; i < n; ++i) {
@@ -91,7 +92,7 @@ double SootMedium::dimers(double collisions) const {
   if (ofMonomers()) return monomers_;
   const double withParticles = condensing_ ? std::max(collisions, 0.0) : 0;
   if (!(selfCollision_ + withParticles > 0)) return 0;
-  return steadyDimers(dimer_.rate, selfCollision_, withParticles);
+  return steadyDimers(dimer_.rate, selfCollision_, withParticles + breaking_);
 }
 
 SootFluxes SootMedium::fluxes() const {

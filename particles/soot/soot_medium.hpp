@@ -90,7 +90,7 @@ class SootMedium {
   DimerProduction dimer_;
   PahArray pahOfDimer_{};
   CarrierGas gas_;
-  double selfCollision_ = 0, freeMolecular_ = 0, monomers_ = 0;
+  double selfCollision_ = 0, freeMolecular_ = 0, monomers_ = 0, breaking_ = 0;
   double inertia_;  // of particles in collisions with dimers: 1, or 0 where they are as at rest
   double dimerCarbon_ = 0, dimerHydrogen_ = 0, freedHydrogen_ = 0;
   double growth_ = 0, O2_ = 0, OH_ = 0;  // kg carbon/m2/s

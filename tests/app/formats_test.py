@@ -174,8 +174,11 @@ def main(executable: str, *mpiexec: str) -> int:
         runs["soot_trees"] = (CASES / "reactor/plug_flow_soot/deck.yaml", *running.settings(
             "reactor.length=5 mm", "output.spacing=5 mm", "particles.description=trees", "particles.repeats=2",
             "particles.number=50", "particles.bins=5", "particles.fragmentation=true"))
+        gaps = folder / "gaps.csv"
+        gaps.write_text("carbon, band_gap\n10, 4\n50, 1\n", encoding="utf-8")
         runs["soot_molecules"] = (CASES / "particles_along/premixed_ethylene_molecules/deck.yaml", *running.settings(
-            "particles.number=32", "particles.repeats=2", "gas.end=1 ms", "particles.tables_at=[1 ms]", "particles.bins=5"))
+            "particles.number=32", "particles.repeats=2", "gas.end=1 ms", "particles.tables_at=[1 ms]", "particles.bins=5",
+            f"particles.molecules.band_gap={gaps}"))
         runs["site_counting"] = (CASES / "pah/site_counting/lattice.yaml", *running.settings("repeats=20", "gas.end=5 us"))
         along = CASES / "particles_along/premixed_ethylene_abf/deck.yaml"
         runs["along"] = (along, *running.settings("particles.repeats=2", "particles.number=32", "gas.end=4 ms", "output.times=[1 ms]",

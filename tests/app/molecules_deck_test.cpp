@@ -10,6 +10,7 @@
 #include "particles/pah/molecule.hpp"
 #include "tests/flow/flame/streams.hpp"
 #include "tests/messages.hpp"
+#include "tests/scratch.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -117,6 +118,27 @@ TEST(MoleculesDeck, HasTheDefaultsOfThePage) {
   EXPECT_FALSE(o.sintering.active());
 }
 
+// Rows in any order, with units.
+TEST(MoleculesDeck, TablesOfStickingAndBandGap) {
+  const test::ScratchFolder folder;
+  (void)folder.file("sticking.csv",
+                    "carbon,temperature [K],probability\n20,1000,0.5\n10,2000,0\n10,1000,0.25\n20,2000,0.125\n");
+  (void)folder.file("gap.csv", "carbon, band_gap\n10, 4\n50, 1\n");
+  const std::string tables = fmt::format(
+      "  molecules: {{sticks: by_table, sticking_table: {0}/sticking.csv, "
+      "band_gap: {0}/gap.csv}}\n",
+      folder.path().string());
+  const Mechanism mechanism = shippedMechanism(mechanismOfMolecules);
+  const MoleculeOptions o = readMoleculeOptions(moleculesDeck(tables), mechanism);
+  EXPECT_THAT(o.sticking.temperatures, testing::ElementsAre(1000, 2000));
+  EXPECT_THAT(o.sticking.carbons, testing::ElementsAre(10, 20));
+  EXPECT_THAT(o.sticking.probabilities, testing::ElementsAre(0.25, 0.5, 0, 0.125));
+  EXPECT_DOUBLE_EQ(o.bandGap(30), 2.5);
+  (void)folder.file("sticking.csv", "carbon,temperature [K],probability\n20,1000,0.5\n10,2000,0\n10,1000,0.25\n");
+  EXPECT_THAT(test::messageOf<InputError>([&] { (void)readMoleculeOptions(moleculesDeck(tables), mechanism); }),
+              testing::HasSubstr("found 3"));
+}
+
 TEST(MoleculesDeck, MistakesAreTold) {
   const auto mechanism = std::make_shared<const Mechanism>(shippedMechanism(mechanismOfMolecules));
   const auto message = [&](const std::string& particles) {
@@ -124,6 +146,8 @@ TEST(MoleculesDeck, MistakesAreTold) {
   };
   EXPECT_THAT(message("  molecules: {inception: as_in_gas}\n"), testing::HasSubstr("prescribed_gas"));
   EXPECT_THAT(message("  molecules: {inception: by_formation}\n"), testing::HasSubstr("prescribed_gas"));
+  EXPECT_THAT(message("  molecules: {sticks: by_table}\n"), testing::HasSubstr("sticking_table"));
+  EXPECT_THAT(message("  dimer_equilibrium: [1, 0, -10]\n"), testing::HasSubstr("leave it out"));
   EXPECT_THAT(message("  molecules: {molecule: coronene}\n"), testing::HasSubstr("the molecule it is taken for"));
   EXPECT_THAT(message("  oh_efficiency: 0.1\n"), testing::HasSubstr("leave it out"));
   EXPECT_THAT(message("  surface: {bounded: true}\n"), testing::HasSubstr("has no meaning"));

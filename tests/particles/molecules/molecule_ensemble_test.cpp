@@ -47,6 +47,27 @@ TEST(MoleculeEnsemble, ExchangesTheAtomsItGains) {
   EXPECT_EQ(ensemble.processes().size(), ensemble.amountsOfProcesses().size());
 }
 
+// By a table over carbon atoms: pyrene has 16.
+TEST(MoleculeEnsemble, SaysTheBandGapOfTheLargestMolecule) {
+  MoleculeOptions o = inert(singlePyrene());
+  o.bandGapCarbons = {10, 20, 30};
+  o.bandGaps = {4, 2, 1.5};
+  MoleculeEnsemble ensemble(ofMolecules(), o);
+  const auto columns = ensemble.columns();
+  const std::vector<double> values = ensemble.values(MoleculeGas().state);
+  ASSERT_EQ(columns.size(), values.size());
+  EXPECT_EQ(columns.back().name, "soot_band_gap");
+  EXPECT_NEAR(values.back(), 2.8, 1e-12);
+  const auto functionals = ensemble.functionals();
+  ensemble.forEachRow(
+      [&](const double* row) { EXPECT_NEAR(ensemble.functional(functionals.size() - 1, row), 2.8, 1e-12); });
+  const auto& type = ensemble.molecules().type();
+  const auto coronene = std::make_shared<const Molecule>(namedMolecule("coronene"));
+  const auto pyrene = std::make_shared<const Molecule>(namedMolecule("pyrene"));
+  ensemble.molecules().fill({type.made({pyrene, coronene}), type.made({pyrene})}, 2e18);
+  EXPECT_NEAR(ensemble.values(MoleculeGas().state).back(), 0.5 * (1.8 + 2.8), 1e-12);
+}
+
 TEST(MoleculeEnsemble, SaysOfRowsWhatItHolds) {
   MoleculeEnsemble ensemble(ofMolecules(), lively());
   const MoleculeGas gas(1e-4);

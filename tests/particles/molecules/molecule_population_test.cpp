@@ -231,6 +231,53 @@ TEST(MoleculePopulation, CollidesAsMoleculesStick) {
   }
 }
 
+// By a table, at the temperature of the gas: half of the collisions that stick at another.
+TEST(MoleculePopulation, SticksByTemperatureAndSize) {
+  MoleculeSticking sticking;
+  sticking.rule = MoleculeSticking::Rule::byTable;
+  sticking.temperatures = {1000, 2000};
+  sticking.carbons = {10, 20, 40};
+  sticking.probabilities = {0.2, 0.6, 1, 0, 0.2, 0.8};
+  const MoleculeSticking::Partner small{4, 15}, large{10, 30}, huge{30, 100};
+  for (const auto& [T, expected] : {std::pair{1000.0, 0.4}, {1500, 0.25}, {2000, 0.1}, {900, 0.4}, {2500, 0.1}}) {
+    sticking.setTemperature(T);
+    EXPECT_NEAR(sticking.probability(small, large), expected, 1e-14);
+    EXPECT_NEAR(sticking.probability(large, small), expected, 1e-14);
+  }
+  EXPECT_NEAR(sticking.probability(large, huge), 0.5, 1e-14);
+  EXPECT_NEAR(sticking.probability(huge, huge), 0.8, 1e-14);
+  MoleculeOptions o = inert(singlePyrene());
+  o.inception = Inception::pairs;
+  o.atStart = 0;
+  o.fullAt = 1e16;
+  o.sticking = sticking;
+  MoleculeOptions always = o;
+  always.sticking = {};
+  for (const double T : {1000.0, 1500.0}) {
+    const MoleculeGas gas(1e-6, T);
+    MoleculePopulation some(o), all(always);
+    for (MoleculePopulation* one : {&some, &all}) one->advance(gas.state, 1e-7);
+    // 16 carbon atoms: 0.44 at 1000 K, 0.12 at 2000 K.
+    EXPECT_NEAR(some.takeExchange().inceptions, (T == 1000 ? 0.44 : 0.28) * all.takeExchange().inceptions,
+                3 * all.weight());
+  }
+  // So do particles.
+  MoleculeOptions meeting = inert(singlePyrene());
+  meeting.coagulation = true;
+  meeting.atStart = 1e20;
+  meeting.sticking = sticking;
+  meeting.sticking.probabilities = {1, 1, 1, 0, 0, 0};
+  MoleculePopulation population(meeting);
+  population.advance(MoleculeGas(0, 2000).state, 1e-5);
+  EXPECT_EQ(population.counters().coagulations, 0u);
+  population.advance(MoleculeGas(0, 1000).state, 1e-5);
+  EXPECT_GT(population.counters().coagulations, 20u);
+  o.sticking.probabilities.pop_back();
+  EXPECT_THROW(MoleculePopulation{o}, InputError);
+  o.sticking.probabilities.push_back(1.5);
+  EXPECT_THROW(MoleculePopulation{o}, InputError);
+}
+
 // A large one does not stick to a small one, whichever of the pair it is.
 TEST(MoleculePopulation, UnlikeMoleculesStickByBoth) {
   MoleculeOptions o = inert(singlePyrene());

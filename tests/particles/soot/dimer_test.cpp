@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "particles/soot/soot_medium.hpp"
 #include "tests/particles/soot_fixtures.hpp"
 
 namespace lampblack::particles {
@@ -89,6 +90,29 @@ TEST(Dimers, CollideWithEachOtherAndWithParticlesAtTheEnhancedKineticRate) {
     const double onto = DimerModel::particleCollision(dimer, freeMolecularPrefactor(T, enhancement), 8 * m, 2 * d);
     EXPECT_NEAR(onto / (enhancement * speed * std::sqrt(0.5 * 9.0 / 8) * 9 * d * d), 1, 1e-13);
   }
+}
+
+// Without other losses than coming apart dimers are in equilibrium, whatever their rate; with collisions, by the
+// quadratic.
+TEST(Dimers, ComeApartIntoEquilibrium) {
+  SootModelOptions options = test::threePah();
+  options.dimerEquilibrium = {2e-2, 0.5, -9};
+  const double T = 1500, K = 2e-8 * std::sqrt(T) * std::exp(9e3 * 4.184 / (constants::gasConstant * T));  // m3/mol
+  const test::FlameGas gas(T, 1e-4, 0.1, 0, 0.1, 0, 0.05, {1e-4, 2e-5, 1e-5});
+  double c = 0;
+  for (const double x : gas.pah()) c += x;
+  const DimerModel model(options);
+  const double rate = 1e22, breaking = model.breaking(T, rate, gas.pah());
+  EXPECT_NEAR(rate / breaking / (constants::avogadro * K * c * c), 1, 1e-12);
+  EXPECT_EQ(DimerModel(test::threePah()).breaking(T, rate, gas.pah()), 0);
+  const SootMedium medium(options, model, gas.state, true);
+  const double made = medium.dimer().rate, apart = model.breaking(T, made, gas.pah());
+  for (const double collisions : {0.0, 0.3 * apart, 1e3 * apart}) {
+    const double n = medium.dimers(collisions);
+    EXPECT_NEAR((medium.dimer().selfCollision * n + collisions + apart) * n / made, 1, 1e-12);
+  }
+  // Soot takes what does not come apart.
+  EXPECT_LT(medium.inception(0), 0.9 * 0.5 * made);
 }
 
 TEST(Dimers, TooManyOrMeaninglessPahAreRefused) {
