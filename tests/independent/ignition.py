@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Ignition of hydrogen in a given volume, by scipy alone: what cases/reactor/rapid_compression and shock_tube_dpdt compute.
+"""Ignition in a given volume, by scipy alone: what cases/reactor/rapid_compression, shock_tube_dpdt and ignition_heptane compute.
 
 Reads the mechanism's data and the table of volumes; rates, thermodynamics and the equations of the reactor are written here.
-Delays are those of the largest dp/dt and dT/dt, counted from the smallest volume (a table) or from the start (a rise of pressure).
+Delays are those of the largest dp/dt and dT/dt, counted from the smallest volume (a table) or from the start.
 
-Usage: hydrogen_given_volume.py rapid_compression | shock_tube [PERCENT_PER_MS]
+Usage: ignition.py rapid_compression | shock_tube [PERCENT_PER_MS] | heptane KELVIN BAR
 """
 import re
 import sys
@@ -17,7 +17,7 @@ from scipy.interpolate import CubicHermiteSpline, CubicSpline
 
 CASES = Path(__file__).resolve().parents[2] / "cases"
 R, CALORIE, ATMOSPHERE = 8.31446261815324, 4.184, 101325.0
-WEIGHTS = {"H": 1.008, "O": 15.999, "N": 14.007, "Ar": 39.95}
+WEIGHTS = {"H": 1.008, "C": 12.011, "O": 15.999, "N": 14.007, "Ar": 39.95}
 
 
 class Gas:
@@ -28,23 +28,37 @@ class Gas:
         self.W = np.array([sum(WEIGHTS[e] * n for e, n in species[s]["composition"].items()) for s in self.names]) * 1e-3
         self.middle = np.array([species[s]["thermo"]["temperature-ranges"][1] for s in self.names])
         self.nasa = np.array([species[s]["thermo"]["data"] for s in self.names])
-        self.reactions = [self.reaction(one) for one in data["reactions"]]
+        self.read(data["reactions"])
 
-    def reaction(self, one):
-        left, right = re.sub(r"\(\+M\)", "", one["equation"]).split("<=>")
-        sides = []
-        for side in (left, right):
-            orders = np.zeros(len(self.names))
-            for term in side.split(" + "):
-                number, name = re.fullmatch(r"\s*(?:(\d+) )?(\w+)\s*", term).groups()
-                if name != "M":
-                    orders[self.names.index(name)] += int(number or 1)
-            sides.append(orders)
-        body = None
-        if one.get("type") in ("three-body", "falloff"):
-            body = np.array([one.get("efficiencies", {}).get(s, 1.0) for s in self.names])
-        kind = "falloff" if one.get("type") == "falloff" else "elementary"
-        return kind, one, sides[0], sides[1], body
+    def read(self, reactions):
+        """Each side as up to three species by number, the number behind the last standing for none."""
+        none, count = len(self.names), len(reactions)
+        self.sides = np.full((2, count, 3), none)
+        self.bodies, self.high, self.low = np.zeros((count, none)), np.zeros((count, 3)), np.zeros((count, 3))
+        self.troe = np.tile([0.0, 1.0, 1.0, 0.0], (count, 1))
+        self.is_reversible, self.has_body, self.is_falloff, self.has_troe = (np.zeros(count, bool) for _ in range(4))
+        for r, one in enumerate(reactions):
+            left, right = one["equation"].replace("(+M)", "").split("=>")
+            self.is_reversible[r] = left.endswith("<")
+            for side, text in enumerate((left.rstrip("<"), right)):
+                found = []
+                for term in text.split(" + "):
+                    number, name = re.fullmatch(r"\s*(?:(\d+) )?([\w()-]+)\s*", term).groups()
+                    found += [self.names.index(name)] * int(number or 1) if name != "M" else []
+                self.sides[side, r, :len(found)] = found
+            constant = lambda key: [one[key]["A"], one[key]["b"], one[key]["Ea"] * CALORIE / R]
+            self.is_falloff[r] = one.get("type") == "falloff"
+            self.has_body[r] = one.get("type") in ("three-body", "falloff")
+            self.bodies[r] = [one.get("efficiencies", {}).get(s, 1.0) for s in self.names]
+            self.high[r] = constant("high-P-rate-constant" if self.is_falloff[r] else "rate-constant")
+            self.low[r] = constant("low-P-rate-constant") if self.is_falloff[r] else [1.0, 0.0, 0.0]
+            if troe := one.get("Troe"):
+                self.has_troe[r] = True
+                self.troe[r] = [troe["A"], troe["T3"], troe["T1"], troe["T2"]]
+        self.net = np.zeros((count, none + 1))
+        for side, sign in ((0, -1), (1, 1)):
+            np.add.at(self.net, (np.arange(count)[:, None], self.sides[side]), sign)
+        self.net = self.net[:, :none]
 
     def thermo(self, T):
         a = np.where((T < self.middle)[:, None], self.nasa[:, 0], self.nasa[:, 1])
@@ -57,26 +71,19 @@ class Gas:
         """mol/cm3/s of concentrations in mol/cm3"""
         _, h, s = self.thermo(T)
         standard = ATMOSPHERE / (R * T) * 1e-6
-        made = np.zeros(len(c))
-        for kind, one, left, right, body in self.reactions:
-            def constant(key):
-                k = one[key]
-                return k["A"] * T ** k["b"] * np.exp(-k["Ea"] * CALORIE / (R * T))
-            third = 1.0 if body is None else body @ c
-            if kind == "falloff":
-                high, low, troe = constant("high-P-rate-constant"), constant("low-P-rate-constant"), one["Troe"]
-                reduced = low * third / high
-                centre = (1 - troe["A"]) * np.exp(-T / troe["T3"]) + troe["A"] * np.exp(-T / troe["T1"]) + np.exp(-troe["T2"] / T)
-                log = np.log10(centre)
-                x = np.log10(max(reduced, 1e-300)) - 0.4 - 0.67 * log
-                k = high * reduced / (1 + reduced) * 10 ** (log / (1 + (x / (0.75 - 1.27 * log - 0.14 * x)) ** 2))
-                third = 1.0
-            else:
-                k = constant("rate-constant")
-            net = right - left
-            equilibrium = np.exp(net @ (s - h)) * standard ** net.sum()
-            made += net * third * k * (np.prod(c ** left) - np.prod(c ** right) / equilibrium)
-        return made
+        constant = lambda k: k[:, 0] * T ** k[:, 1] * np.exp(-k[:, 2] / T)
+        third = np.where(self.has_body, self.bodies @ c, 1.0)
+        high = constant(self.high)
+        reduced = np.maximum(constant(self.low) * third / high, 1e-300)
+        A, T3, T1, T2 = self.troe.T
+        with np.errstate(divide="ignore"):
+            log = np.log10(np.where(self.has_troe, (1 - A) * np.exp(-T / T3) + A * np.exp(-T / T1) + np.exp(-T2 / T), 1.0))
+        x = np.log10(reduced) - 0.4 - 0.67 * log
+        falling = high * reduced / (1 + reduced) * 10 ** (log / (1 + (x / (0.75 - 1.27 * log - 0.14 * x)) ** 2))
+        k = np.where(self.is_falloff, falling, high * third)
+        ahead, back = (np.append(c, 1.0)[side].prod(1) for side in self.sides)
+        equilibrium = np.exp(np.minimum(self.net @ (s - h), 600.0)) * standard ** self.net.sum(1)
+        return (k * (ahead - np.where(self.is_reversible, back / equilibrium, 0.0))) @ self.net
 
 
 def table(file):
@@ -139,6 +146,11 @@ def ignite(gas, T, p, moles, volume, end, origin):
 
 
 def main():
+    if sys.argv[1] == "heptane":
+        gas, T, end = Gas(CASES / "mechanisms/heptane_yoo2011_88.yaml"), float(sys.argv[2]), 25e-3
+        moles = {"NC7H16": 1.0, "O2": 11.0, "N2": 11.0 * 79 / 21}
+        ignite(gas, T, float(sys.argv[3]) * 1e5, moles, rising(gas, T, np.array([moles.get(s, 0.0) for s in gas.names]), 0.0, end), end, 0.0)
+        return
     gas = Gas(CASES / "mechanisms/hydrogen_h2o2_10.yaml")
     if sys.argv[1] == "rapid_compression":
         volume, smallest = table(CASES / "reactor/rapid_compression/volume.csv")
