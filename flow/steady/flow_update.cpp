@@ -11,7 +11,6 @@ namespace {
 
 constexpr double flowReduction = 0.03;
 constexpr int mostFlowIterations = 60;
-constexpr double roughly = 1e-3;  // of the largest change of a flow, in place of round-off of the largest flow
 
 }  // namespace
 
@@ -21,19 +20,16 @@ FlowUpdate::FlowUpdate(const FlowContext& context, const State& state, FlowResid
       d_(static_cast<std::size_t>(state.dimension)),
       fields_(d_ + (state.swirls ? 1 : 0)),
       system_(context.mesh, context.halo, fields_),
-      projection_(context, residual.forces().pressureKnown()),
-      roughProjection_(context, residual.forces().pressureKnown(), roughly) {
+      projection_(context, residual.forces().pressureKnown()) {
   const auto cells = static_cast<std::size_t>(context.mesh.cells), owned = static_cast<std::size_t>(context.mesh.owned);
-  left_.momentum.resize(owned * fields_);
-  left_.mass.resize(owned);
-  left_.massFlux.resize(static_cast<std::size_t>(context.mesh.faces));
-  change_.velocity.resize(cells * fields_);
-  change_.pressure.resize(cells);
-  change_.massFlux.resize(left_.massFlux.size());
+  const auto faces = static_cast<std::size_t>(context.mesh.faces);
+  right_.resize(owned * fields_);
+  rise_.resize(cells * fields_);
+  change_.resize(cells);
   inverse_.resize(owned);
   response_.resize(cells);
   share_.resize(cells);
-  for (std::vector<double>* all : {&faceResponse_, &faceShare_, &faceFlux_, &flux_}) all->resize(left_.massFlux.size());
+  for (std::vector<double>* all : {&faceResponse_, &faceShare_, &faceFlux_, &flux_}) all->resize(faces);
   divergence_.resize(owned);
 }
 
@@ -93,29 +89,19 @@ void FlowUpdate::findResponses(const State& state, std::span<const double> inert
   }
 }
 
-void FlowUpdate::prepare(const State& state, std::span<const double> inertia) {
+// Velocities and mass fluxes under the pressure there is, and the pressure that takes what is left of the mass away.
+FlowUpdate::Result FlowUpdate::advance(State& state, std::span<const double> inertia) {
+  const Mesh& m = context_.mesh;
+  const FlowResidual::Rates& rates = residual_.rates();
   assemble(state, inertia);
   system_.factorise();
   findResponses(state, inertia);
-}
-
-FlowUpdate::Left& FlowUpdate::left(const State& state) {
-  const Mesh& m = context_.mesh;
-  const FlowResidual::Rates& rates = residual_.rates();
   for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
-    for (std::size_t i = 0; i < d_; ++i) left_.momentum[c * fields_ + i] = rates.momentum[c * d_ + i];
-    if (state.swirls) left_.momentum[c * fields_ + d_] = rates.angularMomentum[c] / m.centre[c][0];
+    for (std::size_t i = 0; i < d_; ++i) right_[c * fields_ + i] = rates.momentum[c * d_ + i];
+    if (state.swirls) right_[c * fields_ + d_] = rates.angularMomentum[c] / m.centre[c][0];
   }
-  left_.mass = rates.mass;
-  left_.massFlux = rates.massFlux;
-  return left_;
-}
-
-// Velocities and mass fluxes under the pressure there is, and the pressure that takes what is left of the mass away.
-const FlowUpdate::Change& FlowUpdate::find(const Left& left, bool exactly) {
-  const Mesh& m = context_.mesh;
-  std::vector<double>& velocity = change_.velocity;
-  change_.iterations.iterations = system_.solve(left.momentum, velocity, flowReduction, mostFlowIterations).iterations;
+  Result result;
+  result.iterations = system_.solve(right_, rise_, flowReduction, mostFlowIterations).iterations;
   for (int face = 0; face < m.faces; ++face) {
     const auto low = static_cast<std::size_t>(m.low[face]);
     const bool isInside = m.high[face] >= 0;
@@ -123,38 +109,24 @@ const FlowUpdate::Change& FlowUpdate::find(const Left& left, bool exactly) {
     const double w = isInside ? m.lowWeight[face] : 1.0;
     double rises = 0.0;
     for (std::size_t i = 0; i < d_; ++i)
-      rises += m.normal[face][i] * (w * velocity[low * fields_ + i] + (1.0 - w) * velocity[high * fields_ + i]);
+      rises += m.normal[face][i] * (w * rise_[low * fields_ + i] + (1.0 - w) * rise_[high * fields_ + i]);
     const double area = m.area[face];
-    flux_[face] = area > 0.0 ? faceShare_[face] * left.massFlux[face] / area + faceFlux_[face] * rises : 0.0;
+    flux_[face] = area > 0.0 ? faceShare_[face] * rates.massFlux[face] / area + faceFlux_[face] * rises : 0.0;
   }
-  for (int c = 0; c < m.owned; ++c) divergence_[c] = left.mass[c] / m.volume[c];
+  for (int c = 0; c < m.owned; ++c) divergence_[c] = rates.mass[c] / m.volume[c];
 
-  std::ranges::fill(change_.pressure, 0.0);
-  change_.iterations.pressureIterations =
-      (exactly ? projection_.solve(1.0, faceResponse_, divergence_, flux_, change_.pressure, through_)
-               : roughProjection_.solve(1.0, faceResponse_, divergence_, flux_, change_.pressure))
-          .iterations;
-  const std::span<const double> slope = residual_.forces().gradientOfChange(change_.pressure);
-  for (int c = 0; c < m.owned; ++c)
-    for (std::size_t i = 0; i < d_; ++i)
-      velocity[static_cast<std::size_t>(c) * fields_ + i] -=
-          response_[c] * inverse_[c] * slope[static_cast<std::size_t>(c) * d_ + i];
-  for (int face = 0; face < m.faces; ++face) change_.massFlux[face] = flux_[face] * m.area[face];
-  return change_;
-}
-
-FlowUpdate::Result FlowUpdate::advance(State& state, std::span<const double> inertia) {
-  const Mesh& m = context_.mesh;
-  prepare(state, inertia);
-  const Change& change = find(left(state), true);
+  std::ranges::fill(change_, 0.0);
+  result.pressureIterations = projection_.solve(1.0, faceResponse_, divergence_, flux_, change_, through_).iterations;
+  const std::span<const double> slope = residual_.forces().gradientOfChange(change_);
   for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
-    for (std::size_t i = 0; i < d_; ++i) state.velocity[c * d_ + i] += change.velocity[c * fields_ + i];
-    if (state.swirls) state.swirl[c] += change.velocity[c * fields_ + d_];
+    for (std::size_t i = 0; i < d_; ++i)
+      state.velocity[c * d_ + i] += rise_[c * fields_ + i] - response_[c] * inverse_[c] * slope[c * d_ + i];
+    if (state.swirls) state.swirl[c] += rise_[c * fields_ + d_];
   }
-  for (int c = 0; c < m.cells; ++c) state.pressure[c] += change.pressure[c];
-  for (int face = 0; face < m.faces; ++face) state.massFlux[face] += change.massFlux[face];
+  for (int c = 0; c < m.cells; ++c) state.pressure[c] += change_[c];
+  for (int face = 0; face < m.faces; ++face) state.massFlux[face] += flux_[face] * m.area[face];
   state.updateHalo(context_.halo);
-  return change.iterations;
+  return result;
 }
 
 }  // namespace lampblack::flow

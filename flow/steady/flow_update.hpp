@@ -26,29 +26,7 @@ class FlowUpdate {
   // mass over the cell's pseudo-time.
   Result advance(State& state, std::span<const double> inertia);
 
-  // The parts of advance(). Collective: the linear systems of a state,
-  void prepare(const State& state, std::span<const double> inertia);
-  // and what changes for what is left of the equations.
-  struct Left {
-    std::vector<double> momentum;  // N, a velocity (swirl the last) and owned cell
-    std::vector<double> mass;      // kg/s, owned cells
-    std::vector<double> massFlux;  // kg/s, a face
-  };
-  struct Change {
-    std::vector<double> velocity;  // m/s, a velocity (swirl the last) and cell
-    std::vector<double> pressure;  // Pa, a cell
-    std::vector<double> massFlux;  // kg/s, a face
-    Result iterations;
-  };
-  // Of the state that was evaluated; to be changed for find().
-  Left& left(const State& state);
-  // `exactly`: mass to round-off, as what stays in a state; else to a thousandth of the largest change of a flow.
-  const Change& find(const Left& left, bool exactly);
-
-  void saveOrLoad(StateArchive& archive) {
-    projection_.saveOrLoad(archive, "steady_pressure");
-    roughProjection_.saveOrLoad(archive, "steady_rough_pressure");
-  }
+  void saveOrLoad(StateArchive& archive) { projection_.saveOrLoad(archive, "steady_pressure"); }
 
  private:
   void assemble(const State& state, std::span<const double> inertia);
@@ -58,9 +36,10 @@ class FlowUpdate {
   FlowResidual& residual_;
   std::size_t d_, fields_;
   BlockSystem system_;
-  Projection projection_, roughProjection_;
-  Left left_;
-  Change change_;
+  Projection projection_;
+  std::vector<double> right_;         // N, a velocity (swirl the last) and owned cell
+  std::vector<double> rise_;          // m/s, a velocity and cell
+  std::vector<double> change_;        // Pa, a cell
   std::vector<double> response_;      // s, a cell: momentum per volume that a slope of the pressure of one brings
   std::vector<double> share_;         // a cell: of what a mass flux has not settled, that an iteration takes up
   std::vector<double> faceResponse_;  // s

@@ -21,12 +21,11 @@ NewtonKrylov* newtonOf(void* context) {
 
 }  // namespace
 
-NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
-                           FlowUpdate& flow)
+NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas)
     : context_(context),
       residual_(residual),
       gas_(gas),
-      flow_(flow),
+      flow_(context, state, residual),
       width_(static_cast<std::size_t>(state.species) + 1),
       velocities_(static_cast<std::size_t>(state.dimension) + (state.swirls ? 1 : 0)),
       perCell_(width_ + velocities_ + 1),
@@ -181,7 +180,7 @@ void NewtonKrylov::precondition(Vec x, Vec y) {
     }
     densityChange_[c] = -base_->density[c] * (more / moles + GasUpdate::kelvins * change[n] / base_->temperature[c]);
   }
-  FlowUpdate::Left& left = flow_.left(*base_);
+  CoupledFlow::Left& left = flow_.left();
   for (std::size_t c = 0; c < owned; ++c) {
     const double* row = &rows_[c * perCell_];
     for (std::size_t i = 0; i < velocities_; ++i) {
@@ -201,7 +200,7 @@ void NewtonKrylov::precondition(Vec x, Vec y) {
     left.massFlux[f] = right[size_ - faces_ + f] / rows_[size_ - faces_ + f];
     if (follows) left.massFlux[f] += base_->massFlux[f] * change / faceDensity_[f];
   }
-  const FlowUpdate::Change& change = flow_.find(left, false);
+  const CoupledFlow::Change& change = flow_.find();
   for (std::size_t c = 0; c < owned; ++c) {
     double* own = &to[c * perCell_];
     std::copy_n(&gasChange_[c * width_], width_, own);
@@ -211,13 +210,12 @@ void NewtonKrylov::precondition(Vec x, Vec y) {
   std::ranges::copy(change.massFlux, to.end() - static_cast<std::ptrdiff_t>(faces_));
 }
 
-NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double> inertia,
-                                           std::span<const double> flowInertia, double reduction) {
+NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double> inertia, double reduction) {
   const State base = state;
   base_ = &base;
   inertia_ = inertia;
   gas_.prepare(state, residual_, inertia);
-  flow_.prepare(state, flowInertia);
+  flow_.prepare(state, inertia);
   faceDensity_ = residual_.faces().density;
   findScales(state);
   find(state, left_);

@@ -1,7 +1,8 @@
 // Newton's method for the steady state of a flow whose flame stands: gas, velocities, pressure and mass fluxes
 // together. The linear systems are solved by flexible GMRES (Saad 1993), the matrix known by differences of
-// FlowResidual alone (Knoll and Keyes 2004), preconditioned by what an iteration does one after the other (GasUpdate,
-// FlowUpdate) with the matrices of the state that the step begins with. docs/theory/flow.md, "Iterations".
+// FlowResidual alone (Knoll and Keyes 2004), preconditioned by what an iteration does with the gas (GasUpdate) and then
+// the flow by elimination (CoupledFlow), with the matrices of the state that the step begins with. docs/theory/flow.md,
+// "Iterations".
 #pragma once
 
 #include <span>
@@ -13,7 +14,7 @@
 #include "flow/equations/flow_residual.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
-#include "flow/steady/flow_update.hpp"
+#include "flow/steady/coupled_flow.hpp"
 #include "flow/steady/gas_update.hpp"
 
 namespace lampblack::flow {
@@ -21,8 +22,7 @@ namespace lampblack::flow {
 class NewtonKrylov {
  public:
   // Collective. All have to live as long.
-  NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
-               FlowUpdate& flow);
+  NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas);
 
   struct Result {
     int iterations = 0;        // of the linear solver
@@ -30,9 +30,9 @@ class NewtonKrylov {
     std::int64_t limited = 0;  // cells whose change was limited
     double reached = 0.0;      // what is left of the linear system
   };
-  // Collective. The residual is of the state; inertia (kg/s, owned cells): mass over the cell's pseudo-time; that of
-  // the preconditioner's velocities. The residual is of some other state then.
-  Result advance(State& state, std::span<const double> inertia, std::span<const double> flowInertia, double reduction);
+  // Collective. The residual is of the state; inertia (kg/s, owned cells): mass over the cell's pseudo-time. The
+  // residual is of some other state then.
+  Result advance(State& state, std::span<const double> inertia, double reduction);
 
  private:
   void find(const State& state, std::span<double> left);
@@ -44,7 +44,7 @@ class NewtonKrylov {
   const FlowContext& context_;
   FlowResidual& residual_;
   GasUpdate& gas_;
-  FlowUpdate& flow_;
+  CoupledFlow flow_;
   std::size_t width_, velocities_, perCell_, faces_, size_;
   const State* base_ = nullptr;
   std::span<const double> inertia_;

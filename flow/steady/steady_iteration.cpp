@@ -27,10 +27,11 @@ constexpr int carriedPasses = 3;
 constexpr double carriedShare = 0.3;
 constexpr double mostCarriedCourant = 1.0, mostSweptCourant = 1e3;
 constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
-// Of Newton's linear systems; of their pseudo-time, which goes on growing; of what there was, what a step may leave:
-// after more iterations of the other kind follow, each time twice as many.
+// Of Newton's linear systems; of their pseudo-time, which goes on growing with each step that is taken, as thin cells
+// would hold the flow in a short one; of what there was, what a step may leave at the longest: after more iterations of
+// the other kind follow, each time twice as many.
 constexpr double newtonReduction = 0.01;
-constexpr double mostNewtonGrowth = 10.0, mostNewtonCourant = 1e9;
+constexpr double leastNewtonGrowth = 4.0, mostNewtonGrowth = 10.0, mostNewtonCourant = 1e9;
 constexpr int mostPause = 1000;
 constexpr double enoughOfNewton = 0.5;
 constexpr double afterFailure = 0.25;
@@ -63,7 +64,7 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
   // What is carried follows: of eddies, which move all else, that is no step of Newton's; nor is one after which the
   // pressure of a closed vessel moves.
   if (!control_ && state.eddyViscosity.empty() && !context.isClosed() && options.newton)
-    newton_.emplace(context, state, residual_, gas_, flow_);
+    newton_.emplace(context, state, residual_, gas_);
   if (!state.scalars.empty()) carried_.emplace(context, state, residual_, operators_);
   residual_.evaluate(state);
   measure_ = measure(state);
@@ -260,7 +261,7 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
   NewtonKrylov::Result step;
   try {
     setInertia(state);
-    step = newton_->advance(state, inertia_, flowInertia_, newtonReduction);
+    step = newton_->advance(state, inertia_, newtonReduction);
     keepMass(state, massOf(*before_));
     outcome.newtonIterations = step.iterations;
     outcome.largestRise = step.largestRise;
@@ -276,14 +277,14 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
   }
   if (!(measure_ <= last) || step.limited > 0) return outcome;
   hurry();
-  if (measure_ > enoughOfNewton * last)
-    waitForNewton();
-  else
+  if (measure_ <= enoughOfNewton * last)
     pause_ = leastPause;
+  else if (courant_ >= mostNewtonCourant)
+    waitForNewton();
   outcome.taken = true;
   isAnew_ = false;
   mixing_.clear();
-  courant_ = std::min(courant_ * std::clamp(last / measure_, leastGrowth, mostNewtonGrowth), mostNewtonCourant);
+  courant_ = std::min(courant_ * std::clamp(last / measure_, leastNewtonGrowth, mostNewtonGrowth), mostNewtonCourant);
   return outcome;
 }
 
