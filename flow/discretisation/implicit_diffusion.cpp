@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <numeric>
 #include <utility>
 
 #include "core/errors.hpp"
 #include "core/first_error.hpp"
+#include "numerics/lanes.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -48,6 +50,13 @@ int iterationsFor(MPI_Comm comm, double radius, double reduction, int most) {
                             "a cell holds in a step; take a shorter step or larger cells",
                             most, 1.0 / (1.0 - radius))));
   return static_cast<int>(needed);
+}
+
+// Eight values of single precision.
+numerics::Lanes loadSingles(const float* from) {
+  float __attribute__((vector_size(numerics::laneCount * sizeof(float)))) v;
+  std::memcpy(&v, from, sizeof v);
+  return __builtin_convertvector(v, numerics::Lanes);
 }
 
 }  // namespace
@@ -201,32 +210,27 @@ void ImplicitDiffusion::begin(Group& group, std::span<const int> fields, int all
 // One iteration: the next change from the last one.
 void ImplicitDiffusion::iterate(Group& group, std::span<const double> old, std::span<const double> fresh,
                                 std::span<const double> inertia) {
+  static_assert(width == static_cast<int>(numerics::laneCount));
+  using numerics::Lanes, numerics::loadLanes, numerics::storeLanes;
   const Mesh& m = mesh_;
+  const Lanes ofOld = loadLanes(old.data()), ofFresh = loadLanes(fresh.data());
   for (int c = 0; c < m.owned; ++c) {
-    const double* own = &group.change[c * width];
-    std::array<double, width> taken;
-    for (int k = 0; k < width; ++k) taken[k] = inertia[c] * own[k];
-    if (!group.sinks.empty())
-      for (int k = 0; k < width; ++k) taken[k] += group.sinks[c * width + k] * own[k];
+    const Lanes own = loadLanes(&group.change[c * width]);
+    Lanes taken = inertia[c] * own;
+    if (!group.sinks.empty()) taken += loadLanes(&group.sinks[c * width]) * own;
     for (int i = m.faceStart[c]; i < m.faceStart[c + 1]; ++i) {
       const int face = m.faceOfCell[i];
-      const float* g = &group.conductance[face * width];
-      if (m.high[face] < 0) {
-        for (int k = 0; k < width; ++k) taken[k] += g[k] * own[k];
-        continue;
-      }
-      const double* other = &group.change[(m.low[face] == c ? m.high[face] : m.low[face]) * width];
-      for (int k = 0; k < width; ++k) taken[k] += g[k] * (own[k] - other[k]);
+      const Lanes g = loadSingles(&group.conductance[face * width]);
+      if (m.high[face] < 0)
+        taken += g * own;
+      else
+        taken += g * (own - loadLanes(&group.change[(m.low[face] == c ? m.high[face] : m.low[face]) * width]));
     }
-    const double* diagonal = &group.diagonal[c * width];
-    double* residual = &group.residual[c * width];
-    double* changed = &group.otherChange[c * width];
-    double* x = &group.solution[c * width];
-    for (int k = 0; k < width; ++k) {
-      residual[k] -= taken[k];
-      changed[k] = old[k] * own[k] + fresh[k] * residual[k] / diagonal[k];
-      x[k] += changed[k];
-    }
+    const Lanes residual = loadLanes(&group.residual[c * width]) - taken;
+    const Lanes changed = ofOld * own + ofFresh * residual / loadLanes(&group.diagonal[c * width]);
+    storeLanes(&group.residual[c * width], residual);
+    storeLanes(&group.otherChange[c * width], changed);
+    storeLanes(&group.solution[c * width], loadLanes(&group.solution[c * width]) + changed);
   }
   std::swap(group.change, group.otherChange);
 }
