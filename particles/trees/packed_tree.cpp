@@ -57,6 +57,10 @@ InputError damaged() {
 
 }  // namespace
 
+std::size_t lengthOfRow(const Tree& tree, const TreeMaterial& material) {
+  return lengthOfRow(tree.count(), material, tree.head().pool->hasSpheres());
+}
+
 void packSums(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to) {
   const TreeHead& h = tree.head();
   // So many equal spheres have its volume and its surface: S^3 / (36 pi V^2).
@@ -97,26 +101,32 @@ Tree unpackTree(std::span<const double> rows, TreePool& pool, const TreeMaterial
   TreeHead* tree = pool.allocate(count);
   Tree handle(tree);
   tree->count = index(h.count);
+  TreePrimary* primaries = primariesOf(tree);
+  TreeNeck* necks = necksOf(tree);
   for (std::uint32_t i = 0; i < tree->count; ++i) {
-    TreeUnits units{};
-    std::ranges::copy(state.nextRow(material.components.size()), units.begin());
-    primariesOf(tree)[i] = {units, treeDiameter(material.volume(units))};
+    primaries[i].units = {};
+    std::ranges::copy(state.nextRow(material.components.size()), primaries[i].units.begin());
   }
+  takeCubeRoots(
+      count, [&](std::size_t i) { return 6 / constants::pi * material.volume(primaries[i].units); },
+      [&](std::size_t i, double diameter) { primaries[i].diameter = diameter; });
   for (std::uint32_t k = 0; k + 1 < tree->count; ++k) {
     const auto n = state.next<Neck>();
     for (const double both : {n.sides, n.range})
       if (!(both >= 0) || !(both < mostPlaces * mostPlaces)) throw damaged();
     TreeNeck neck{n.common, 0, first(n.sides), second(n.sides), first(n.range), second(n.range)};
     if (std::max({neck.left, neck.right, neck.first, neck.last}) >= tree->count) throw damaged();
-    neck.sphere = sphereOfNeck(primariesOf(tree), neck);
-    necksOf(tree)[k] = neck;
+    necks[k] = neck;
   }
+  takeCubeRoots(
+      count - 1, [&](std::size_t k) { return cubeOfNeck(primaries, necks[k]); },
+      [&](std::size_t k, double diameter) { necks[k].sphere = primarySurface(diameter); });
   for (std::uint32_t i = 0; pool.hasSpheres() && i < tree->count; ++i) {
     const auto s = state.next<Sphere>();
-    const std::uint32_t parent = i == 0 ? 0 : necksOf(tree)[i - 1].left;
+    const std::uint32_t parent = i == 0 ? 0 : necks[i - 1].left;
     if (!(s.radius > 0) || !(s.neck >= 0 && s.neck < s.radius * s.radius)) throw damaged();
-    if (i > 0 && (parent >= i || necksOf(tree)[i - 1].right != i)) throw damaged();
-    spheresOf(tree)[i] = {s.centre, s.radius, material.volume(primariesOf(tree)[i].units), s.neck, parent};
+    if (i > 0 && (parent >= i || necks[i - 1].right != i)) throw damaged();
+    spheresOf(tree)[i] = {s.centre, s.radius, material.volume(primaries[i].units), s.neck, parent};
   }
   setSums(*tree, h);
   return handle;

@@ -2,6 +2,7 @@
 // the row's length, its sums, its primaries, its necks and, of trees with places in space, its spheres.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -11,6 +12,8 @@
 
 namespace lampblack::particles {
 
+// Of its row.
+[[nodiscard]] std::size_t lengthOfRow(const Tree& tree, const TreeMaterial& material);
 // Adds the row of a tree that stands for `number` (1/m3); or its fixed part alone, without primaries and necks.
 void packTree(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to);
 void packSums(const Tree& tree, double number, const TreeMaterial& material, std::vector<double>& to);

@@ -110,6 +110,9 @@ std::vector<double> TreePopulation::pack() const {
   for (const PopulationCounter& counter : populationCounters)
     state.push_back(static_cast<double>(const_cast<Method&>(method_).counters().*counter.value));
   packDoubles(state, method_.memory());
+  std::size_t length = state.size();
+  method_.forEachParticle([&](const Tree& p, double) { length += lengthOfRow(p, options_.material); });
+  state.reserve(length);
   method_.forEachParticle([&](const Tree& p, double w) { packTree(p, w, options_.material, state); });
   return state;
 }

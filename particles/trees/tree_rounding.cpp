@@ -6,7 +6,8 @@
 
 namespace lampblack::particles {
 
-void roundTree(const PrimaryTrees& type, TreeHead& tree, std::vector<double>& change, double piece) {
+void roundTree(const PrimaryTrees& type, TreeHead& tree, std::vector<double>& change, double piece,
+               std::span<const std::uint32_t> changed) {
   if (TreeSpheres* spheres = type.spheres()) {
     spheres->follow(tree);
     type.measure(tree);
@@ -27,18 +28,24 @@ void roundTree(const PrimaryTrees& type, TreeHead& tree, std::vector<double>& ch
   }
   TreeNeck* necks = necksOf(&tree);
   const double gain = 2 * m.smoothing * piece;
-  bool shrinks = false;
-  for (std::size_t i = 0; i < tree.count; ++i) {
+  bool shrinks = false, isEachGrown = !changed.empty() && gain > 0;
+  const auto round = [&](std::size_t i) {
     TreePrimary& p = primaries[i];
     const double volume = m.volume(p.units);
     const double before = p.diameter;
     const bool isLess = change[i] < 0;
     shrinks = shrinks || isLess;
     change[i] = isLess ? 0 : change[i] * (gain / before);  // m2
+    isEachGrown = isEachGrown && change[i] > 0;
     p.diameter = volume > 0 ? treeDiameter(volume) : 0;
-  }
+  };
+  if (changed.empty())
+    for (std::size_t i = 0; i < tree.count; ++i) round(i);
+  else
+    for (const std::uint32_t i : changed) round(i);
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
     TreeNeck& neck = necks[k];
+    if (isEachGrown && !(change[neck.left] + change[neck.right] > 0)) continue;  // between others
     if (!(primaries[neck.left].diameter > 0) && !(primaries[neck.right].diameter > 0)) continue;
     const double sphere = sphereOfNeck(primaries, neck);
     // At the same level where something has shrunk, and the sphere is smaller.

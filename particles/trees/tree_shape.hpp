@@ -106,18 +106,35 @@ inline void shapeBySurface(TreeHead& tree, double inverseDimension) {
 
 // Sums over primaries and necks afresh, from those that are up to date; and what follows from them.
 inline void sumTree(TreeHead& tree) {
-  tree.units = {};
-  tree.volume = tree.diameters = tree.surfaces = tree.levels = 0;
+  // Four sums of each side by side: none waits for the one before it.
+  constexpr std::size_t together = 4;
+  struct {
+    TreeUnits units{};
+    double diameters = 0, squares = 0, cubes = 0, levels = 0;
+  } part[together];
   const TreePrimary* primaries = primariesOf(&tree);
-  for (std::uint32_t i = 0; i < tree.count; ++i) {
-    for (std::size_t c = 0; c < mostTreeComponents; ++c) tree.units[c] += primaries[i].units[c];
-    const double d = primaries[i].diameter;
-    tree.diameters += d;
-    tree.surfaces += primarySurface(d);
-    tree.volume += primaryVolume(d);
-  }
+  const auto addPrimary = [&](std::size_t l, const TreePrimary& one) {
+    const double d = one.diameter;
+    for (std::size_t c = 0; c < mostTreeComponents; ++c) part[l].units[c] += one.units[c];
+    part[l].diameters += d;
+    part[l].squares += d * d;
+    part[l].cubes += d * d * d;
+  };
+  std::size_t i = 0, k = 0;
+  for (; i + together <= tree.count; i += together)
+    for (std::size_t l = 0; l < together; ++l) addPrimary(l, primaries[i + l]);
+  for (; i < tree.count; ++i) addPrimary(0, primaries[i]);
   const TreeNeck* necks = necksOf(&tree);
-  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) tree.levels += sinteringLevel(necks[k]);
+  for (; k + together < tree.count; k += together)
+    for (std::size_t l = 0; l < together; ++l) part[l].levels += sinteringLevel(necks[k + l]);
+  for (; k + 1 < tree.count; ++k) part[0].levels += sinteringLevel(necks[k]);
+  const auto sum = [&](auto of) { return (of(part[0]) + of(part[1])) + (of(part[2]) + of(part[3])); };
+  for (std::size_t c = 0; c < mostTreeComponents; ++c)
+    tree.units[c] = sum([c](const auto& one) { return one.units[c]; });
+  tree.diameters = sum([](const auto& one) { return one.diameters; });
+  tree.surfaces = constants::pi * sum([](const auto& one) { return one.squares; });
+  tree.volume = constants::pi / 6 * sum([](const auto& one) { return one.cubes; });
+  tree.levels = sum([](const auto& one) { return one.levels; });
 }
 inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize size) {
   sumTree(tree);
@@ -128,11 +145,26 @@ inline void measureTree(TreeHead& tree, double inverseDimension, CollisionSize s
 [[nodiscard]] inline double touchingSurface(const TreePrimary* primaries, const TreeNeck& neck) {
   return primarySurface(primaries[neck.left].diameter) + primarySurface(primaries[neck.right].diameter);
 }
-// The sphere of the two primaries of a neck.
-[[nodiscard]] inline double sphereOfNeck(const TreePrimary* primaries, const TreeNeck& neck) {
+// The sphere of the two primaries of a neck, and the cube of its diameter.
+[[nodiscard, gnu::always_inline]] inline double cubeOfNeck(const TreePrimary* primaries, const TreeNeck& neck) {
   const double l = primaries[neck.left].diameter, r = primaries[neck.right].diameter;
-  const double d = normalCubeRoot(l * l * l + r * r * r);
-  return primarySurface(d);
+  return l * l * l + r * r * r;
+}
+[[nodiscard]] inline double sphereOfNeck(const TreePrimary* primaries, const TreeNeck& neck) {
+  return primarySurface(normalCubeRoot(cubeOfNeck(primaries, neck)));
+}
+
+// Lengths of which the cubes are cube(k), take(k, length), k below n: in vector lanes, to the bits of one alone.
+template <class Cube, class Take>
+void takeCubeRoots(std::size_t n, Cube cube, Take take) {
+  constexpr std::size_t block = 64;
+  double lengths[block];
+  for (std::size_t first = 0; first < n; first += block) {
+    const std::size_t count = std::min(block, n - first);
+    for (std::size_t k = 0; k < count; ++k) lengths[k] = cube(first + k);
+    for (std::size_t k = 0; k < count; ++k) lengths[k] = normalCubeRoot(lengths[k]);
+    for (std::size_t k = 0; k < count; ++k) take(first + k, lengths[k]);
+  }
 }
 
 }  // namespace lampblack::particles

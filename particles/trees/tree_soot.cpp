@@ -77,10 +77,15 @@ void TreeSoot::begin(const Sums& sums, double dt) {
 }
 
 // What a burnt primary had is gone, and nothing else happens to it.
-void TreeSoot::applyEvents(TreePrimary& primary, std::size_t kind, double times) {
+void TreeSoot::applyEvents(TreePrimary* primaries, std::size_t i, std::size_t kind, double times) {
+  TreePrimary& primary = primaries[i];
   double carbon = primary.units[Component::carbon] * carbonAtom_;
   double hydrogen = primary.units[Component::hydrogen] * hydrogenAtom_;
   if (!(carbon > 0)) return;
+  if (!(change_[i] < 0)) {  // for the first time
+    change_[i] = -type_.material().volume(primary.units);
+    changed_.push_back(static_cast<std::uint32_t>(i));
+  }
   SootEvents events(*medium_, growth_->leastCarbon(), 1, moved_);
   events_[kind] += times;
   if (!events.applyEvents(kind, carbon, hydrogen, times)) ++burntPrimaries_;
@@ -109,7 +114,7 @@ void TreeSoot::applySingleEvents(TreeHead& tree, const SootEventNumbers& expecte
       const auto at = std::upper_bound(surfaces_.begin(), surfaces_.end(), random.uniform() * surfaces_.back());
       i = std::min<std::size_t>(static_cast<std::size_t>(at - surfaces_.begin()), tree.count - 1);
     }
-    applyEvents(primaries[i], kind, 1);
+    applyEvents(primaries, i, kind, 1);
     left -= random.exponential(1);
   } while (left > 0);
 }
@@ -123,7 +128,7 @@ void TreeSoot::applyPoissonNumbers(TreeHead& tree, const SootEventNumbers& expec
                                    : primarySurface(primaries[i].diameter) / tree.surfaces;
     for (std::size_t kind = 0; kind < expected.size(); ++kind) {
       const double times = poisson(random, part * expected[kind]);
-      if (times > 0) applyEvents(primaries[i], kind, times);
+      if (times > 0) applyEvents(primaries, i, kind, times);
     }
   }
 }
@@ -169,20 +174,20 @@ TreeFate TreeSoot::react(Tree& handle, RandomStream& random) {
   if (left < 0) return TreeFate::same;
   TreeHead& tree = handle.own();
   const TreePrimary* primaries = primariesOf(&tree);
-  change_.clear();
-  for (std::size_t i = 0; i < tree.count; ++i) change_.push_back(-type_.material().volume(primaries[i].units));
+  change_.assign(tree.count, 0.0);
+  changed_.clear();
   const std::uint64_t before = burntPrimaries_;
   if (areFew)
     applySingleEvents(tree, expected, left, random);
   else
     applyPoissonNumbers(tree, expected, random);
-  for (std::size_t i = 0; i < tree.count; ++i) change_[i] += type_.material().volume(primaries[i].units);
+  for (const std::uint32_t i : changed_) change_[i] += type_.material().volume(primaries[i].units);
   const std::size_t burnt = burntPrimaries_ - before;
   if (burnt == tree.count) {
     ++burnt_;
     return TreeFate::gone;
   }
-  roundTree(type_, tree, change_, 1);
+  roundTree(type_, tree, change_, 1, changed_);
   return burnt > 0 ? withoutBurnt(handle) : TreeFate::changed;
 }
 

@@ -53,7 +53,7 @@ class TreeSoot {
  private:
   [[nodiscard]] SootPopulationLaw law(double tolerance) const;
   [[nodiscard]] SootAggregate::Particle asSphere(const TreeHead& tree) const;
-  void applyEvents(TreePrimary& primary, std::size_t kind, double times);
+  void applyEvents(TreePrimary* primaries, std::size_t i, std::size_t kind, double times);
   void sumSurfaces(const TreeHead& tree);
   void applySingleEvents(TreeHead& tree, const SootEventNumbers& expected, double left, RandomStream& random);
   void applyPoissonNumbers(TreeHead& tree, const SootEventNumbers& expected, RandomStream& random);
@@ -79,6 +79,7 @@ class TreeSoot {
   double events_[sootEvents] = {};
   std::vector<Tree> fragments_, pieces_;
   std::vector<double> surfaces_, change_;  // m2, sums up to each primary; m3, of each
+  std::vector<std::uint32_t> changed_;     // primaries that had events
 };
 
 }  // namespace lampblack::particles

@@ -138,4 +138,32 @@ TEST_F(BurntTrees, NecksOfShrinkingPrimariesKeepTheirLevels) {
 }
 
 }  // namespace
+// Who tells which primaries have other units gets the same to the last bit.
+TEST_F(BurntTrees, AreRoundedAlikeByThoseThatChanged) {
+  for (const double factor : {1.1, 0.9}) {
+    Tree whole = randomTree(30);
+    std::vector<double> change(30, 0.0);
+    roundTree(type, whole.own(), change, 1);
+    Tree part = whole;
+    TreeHead &all = whole.own(), &some = part.own();
+    const std::vector<std::uint32_t> changed{17, 4, 5};
+    for (const std::uint32_t i : changed) {
+      change[i] = (factor - 1) * primaryVolume(primariesOf(&all)[i].diameter);
+      for (TreeHead* head : {&all, &some})
+        for (double& units : primariesOf(head)[i].units) units *= factor;
+    }
+    std::vector<double> again = change;
+    roundTree(type, all, change, 1);
+    roundTree(type, some, again, 1, changed);
+    for (std::uint32_t i = 0; i < 30; ++i) EXPECT_EQ(part.primaries()[i].diameter, whole.primaries()[i].diameter);
+    for (std::uint32_t k = 0; k + 1 < 30; ++k) {
+      EXPECT_EQ(part.necks()[k].common, whole.necks()[k].common);
+      EXPECT_EQ(part.necks()[k].sphere, whole.necks()[k].sphere);
+    }
+    EXPECT_EQ(some.surface, all.surface);
+    EXPECT_EQ(some.collision, all.collision);
+    expectTree(type, part);
+  }
+}
+
 }  // namespace lampblack::test
