@@ -76,8 +76,8 @@ std::vector<double> SootEnsemble::content() {
 }
 
 void SootEnsemble::join(std::span<const double> rows, double share) {
-  std::vector<GivenParticle> particles;
-  this->rows().forEach(rows, [&](const double* row) { particles.push_back(particleAt(row)); });
+  std::vector<GivenParticle> particles(rows.size() / packedParticle);
+  for (std::size_t k = 0; k < particles.size(); ++k) particles[k] = particleAt(&rows[k * packedParticle]);
   ensemble_->join(particles, share);
 }
 

@@ -103,7 +103,7 @@ class StochasticProcess final : public Ensemble {
     }
   };
 
-  static constexpr int birthsOfJump = 4;
+  static constexpr double mostBirthsOfJump = 4;  // times of a jump at which some are born
   static constexpr std::size_t leastRoom = 8;
   static constexpr bool weighted = requires(Method method, const Particle& p) { method.setNucleus(p, 1.0); };
   // Whether a method collides its particles over a time, and not event by event.
@@ -254,8 +254,10 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     births_.bear(weight, method_.nucleusWeight(), random_);
   };
   if constexpr (drawsPairs) {
-    // Births between two halves of the collisions, several times: few collisions are left for the splitting to reorder.
-    const int times = kernel_ && inception > 0 ? birthsOfJump : 1;
+    // Births between two halves of the collisions, several times where they are several: few collisions are left for the
+    // splitting to reorder.
+    const double births = std::ceil(inception * dt / method_.nucleusWeight());
+    const int times = kernel_ && births > 1 ? static_cast<int>(std::min(births, mostBirthsOfJump)) : 1;
     const double part = dt / times;
     if (kernel_) method_.coagulate(0.5 * part, random_);
     for (int k = 1; k <= times; ++k) {

@@ -23,7 +23,10 @@ PairKernel::PairKernel(const CollisionKernelOptions& options) : kernel_(options)
     case CollisionKernelType::transition:
       continuum_ = options.efficiency * continuumPrefactor(gas.temperature, gas.viscosity);
       slipLength_ = slipLength(options.slip, gas);
-      slow_ = options.slip == SlipLaw::davies ? DaviesSlip::slow : 0;
+      if (options.slip == SlipLaw::davies) {
+        slow_ = DaviesSlip::slow;
+        fallPerDiameter_ = DaviesSlip::fall / slipLength_;
+      }
       [[fallthrough]];
     case CollisionKernelType::freeMolecular:
       freeMolecular_ = options.efficiency * freeMolecularPrefactor(gas.temperature, options.enhancement);

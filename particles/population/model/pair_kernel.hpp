@@ -36,10 +36,10 @@ class PairKernel {
 
  private:
   [[nodiscard]] float mobility(double diameter) const {  // continuum prefactor times C/d
-    const double knudsen = slipLength_ / diameter;
+    const double inverse = 1 / diameter, knudsen = slipLength_ * inverse;
     const double slip =
-        1 + knudsen * (DaviesSlip::fast + slow_ * numerics::vectormath::expOne(-DaviesSlip::fall / knudsen));
-    return static_cast<float>(continuum_ * slip / diameter);
+        1 + knudsen * (DaviesSlip::fast + slow_ * numerics::vectormath::expOne(-fallPerDiameter_ * diameter));
+    return static_cast<float>(continuum_ * inverse * slip);
   }
   [[nodiscard]] float inverseMass(double mass) const {
     return static_cast<float>(freeMolecular_ * freeMolecular_ / mass);
@@ -49,7 +49,8 @@ class PairKernel {
   bool hasForm_;
   double root_ = 0, freeMolecular_ = 0, continuum_ = 0;
   double slipLength_ = 0;  // m
-  double slow_ = 0;        // of Davies' slip correction, zero without
+  // Of Davies' slip correction, zero without; 1/m.
+  double slow_ = 0, fallPerDiameter_ = 0;
 };
 
 inline PairKernel::Terms PairKernel::terms(const CollisionKernel::Properties& x) const {

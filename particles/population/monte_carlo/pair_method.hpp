@@ -76,6 +76,10 @@ class PairMethod {
   }
   // Takes in the part `chance` of these, with weights that make up for the others.
   void join(const std::vector<Entry>& coming, double chance, RandomStream& random) {
+    if (chance == 1) {
+      for (const Entry& entry : coming) population_.add(entry.particle, entry.weight);
+      return mergeExcess();
+    }
     const auto copies = systematicCopies(
         coming.size(), [&](std::size_t) { return chance; }, random);
     for (std::size_t k = 0; k < coming.size(); ++k)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <optional>
@@ -78,6 +79,10 @@ class PairPopulation {
     if (kernel_ && k < known_) rows_[k].terms = kernel_->terms(kernelProperties(kernel_->kernel(), type_, particle));
     particles_[k] = particle;
   }
+  void copy(std::size_t from, std::size_t to) {
+    rows_[to] = rows_[from];
+    particles_[to] = particles_[from];
+  }
   // All particles change: f(Particle&, weight) -> bool changes one of them, false drops it.
   template <class F>
   void change(F&& f);
@@ -109,6 +114,14 @@ class PairPopulation {
     double sum = 0;
     for (const Row& row : rows_) sum += row.weight;
     return sum;
+  }
+  [[nodiscard]] double heaviest() const {  // 1/m3; zero without particles
+    std::array<double, 4> most{};          // side by side, not one after the other
+    std::size_t k = 0;
+    for (; k + most.size() <= rows_.size(); k += most.size())
+      for (std::size_t l = 0; l < most.size(); ++l) most[l] = std::max(most[l], rows_[k + l].weight);
+    for (; k < rows_.size(); ++k) most[0] = std::max(most[0], rows_[k].weight);
+    return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
   }
   template <class F>
   void forEach(F&& f) const {

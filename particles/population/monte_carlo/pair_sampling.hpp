@@ -57,7 +57,8 @@ class PairSampling {
   void probe(const Rate& rate, const PairPopulation<Type>& population, RandomStream& random);
   template <class F>
   static void withRate(const PairPopulation<Type>& population, F&& f);
-  void happen(PairPopulation<Type>& population, std::size_t i, std::size_t j, double p, double u,
+  // With all that it calls: an event waits for each result on its way, and for what goes through memory longest.
+  [[gnu::flatten]] void happen(PairPopulation<Type>& population, std::size_t i, std::size_t j, double p, double u,
               PopulationCounters& counters);
   // Of p: the larger of what the heavier one loses of its weight and the lighter one gains in volume.
   static double shareOf(const typename PairPopulation<Type>::Row& i, const typename PairPopulation<Type>::Row& j) {
@@ -96,8 +97,7 @@ void PairSampling<Type>::advance(PairPopulation<Type>& population, double time, 
                                  PopulationCounters& counters) {
   if (population.size() == 0 || !(time > 0)) return;
   population.findTerms();
-  double heaviest = 0;
-  for (std::size_t k = 0; k < population.size(); ++k) heaviest = std::max(heaviest, population.weight(k));
+  const double heaviest = population.heaviest();
   // Weights that others have raised since the last candidates.
   if (heaviest > heaviest_) highest_ *= heaviest / heaviest_;
   heaviest_ = heaviest;
@@ -159,8 +159,12 @@ void PairSampling<Type>::draw(const Rate& rate, PairPopulation<Type>& population
         ++happened;
         happen(population, i[c], j[c], p[c], u[c], counters);
         // Those behind it are of the population as it is now.
-        for (std::size_t l = c + 1; l < count; ++l) {
-          if (i[l] != i[c] && i[l] != j[c] && j[l] != i[c] && j[l] != j[c]) continue;
+        const std::uint32_t a = i[c], b = j[c];
+        std::uint32_t same = 0;  // that have one of the two, a bit each, without a branch
+        for (std::size_t l = 0; l < together; ++l)
+          same |= static_cast<std::uint32_t>((i[l] == a) | (i[l] == b) | (j[l] == a) | (j[l] == b)) << l;
+        for (same &= (1U << count) - (2U << c); same != 0; same &= same - 1U) {
+          const auto l = static_cast<std::size_t>(std::countr_zero(same));
           p[l] = chance(rate(i[l], j[l]), i[l], j[l]);
           marked |= static_cast<std::uint32_t>(p[l] > std::min(watched, u[l])) << l;
         }
@@ -261,9 +265,8 @@ void PairSampling<Type>::happen(PairPopulation<Type>& population, std::size_t i,
     population.setWeight(i, left);
     population.set(j, joined, light);
   } else {
-    const double half = 0.5 * (light + left * va / vj);
-    population.set(i, joined, half);
-    population.set(j, joined, half);
+    population.set(j, joined, 0.5 * (light + left * va / vj));
+    population.copy(j, i);
   }
 }
 
