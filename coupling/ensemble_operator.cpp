@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "coupling/load_ahead.hpp"
 #include "particles/collisions/collision_physics.hpp"
 
 namespace lampblack::coupling {
@@ -99,6 +100,7 @@ std::vector<double>& EnsembleOperator::openPopulation(int cell) {
 }
 
 EnsembleOperator::Packed EnsembleOperator::pack(const State& state, int cell, RowWriter rows) {
+  loadAhead(populations_, cell + 1);
   const ParticleGas gas = gasOf(state, cell, concentrations_);
   rows.add(concentrations_);
   rows.add(openPopulation(cell));
@@ -127,6 +129,9 @@ void EnsembleOperator::take(State& state, int cell, bool isHeld, std::span<const
   const std::span<const double> change = values.nextRow(species.size());
   const std::span<const double> gained = values.nextRow(held), resampled = values.nextRow(held);
   const std::span<const double> population = values.nextRow(values.left());
+  // With room for about as many as came to it in the last step.
+  populations_[cell].clear();
+  populations_[cell].reserve(population.size() + static_cast<std::size_t>(1.125 * waiting_[cell]));
   populations_[cell].assign(population.begin(), population.end());
   for (std::size_t e = 0; e < held; ++e) resampled_[e] += context_.mesh.volume[cell] * resampled[e];
   if (options_.exchange == Exchange::OneWay) return;
@@ -218,6 +223,7 @@ void EnsembleOperator::separateArrivals() {
 // Collective.
 void EnsembleOperator::storeArrivals(State& state) {
   for (int cell = 0; cell < context_.mesh.owned; ++cell) {
+    loadAhead(populations_, cell + 1);
     waiting_[cell] = static_cast<double>(arrived_[cell].size());
     if (!arrived_[cell].empty()) {
       std::vector<double>& population = openPopulation(cell);
@@ -230,34 +236,6 @@ void EnsembleOperator::storeArrivals(State& state) {
     setAmounts(state, cell);
   }
   context_.halo.update(state.carried, state.carriedCount());
-}
-
-void EnsembleOperator::countOutflow() {
-  std::ranges::fill(outflow_, 0.0);
-  goneThrough_.assign(static_cast<std::size_t>(context_.mesh.boundaryFaces()), 0.0);
-  std::vector<double> amounts(outflow_.size());
-  auto face = transport_.goneThrough().begin();
-  particles_->rows().forEach(transport_.gone(), [&](const double* row) {
-    std::ranges::fill(amounts, 0.0);
-    particles_->addAmounts(row, row[packedNumberAt], amounts);
-    for (std::size_t i = 0; i < amounts.size(); ++i) outflow_[i] += amounts[i];
-    double& mass = goneThrough_[static_cast<std::size_t>(*face++ - context_.mesh.interiorFaces)];
-    for (std::size_t e = 0; e < amounts_.held; ++e) mass += amounts[amounts_.element(e)];
-  });
-}
-
-void EnsembleOperator::addToStatistics(const State& state) {
-  if (!statistics_) return;
-  const auto amountsOf = [&](int cell) {
-    const double* amount = &state.carried[amountsAt(state, cell)];
-    return EnsembleStatistics::CellAmounts{
-        amount[AmountPlaces::number], particles_->volumeOf({amount, amounts_.count()}), amount[amounts_.primaries()],
-        amount[amounts_.surface()], amount[amounts_.diameters()]};
-  };
-  const auto sizesOf = [&](int cell, std::span<double> sizes) {
-    addSizes(particles_->sizes(), options_.bins, populations_[cell], sizes);
-  };
-  statistics_->addStep(stepEnd_, lastStep_, {amountsOf, sizesOf});
 }
 
 void EnsembleOperator::endStep(State& state) {

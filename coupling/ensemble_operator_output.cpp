@@ -1,4 +1,4 @@
-// What EnsembleOperator tells: its columns of the history, lines of the report, fields.
+// What EnsembleOperator tells: its columns of the history, lines of the report, fields, averages, and what left the flow.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "coupling/ensemble_operator.hpp"
+#include "coupling/load_ahead.hpp"
 #include "flow/peak.hpp"
 #include "particles/models/particle_model.hpp"
 
@@ -138,6 +139,35 @@ std::vector<Operator::RegionTable> EnsembleOperator::regionTables() const {
 std::vector<double> EnsembleOperator::regionRows(std::size_t table, const MeshRegion& region) const {
   const auto rows = table == 0 ? regionSizeRows : regionJointRows;
   return rows(particles_->sizes(), options_.bins, region, populations_);
+}
+
+void EnsembleOperator::countOutflow() {
+  std::ranges::fill(outflow_, 0.0);
+  goneThrough_.assign(static_cast<std::size_t>(context_.mesh.boundaryFaces()), 0.0);
+  std::vector<double> amounts(outflow_.size());
+  auto face = transport_.goneThrough().begin();
+  particles_->rows().forEach(transport_.gone(), [&](const double* row) {
+    std::ranges::fill(amounts, 0.0);
+    particles_->addAmounts(row, row[packedNumberAt], amounts);
+    for (std::size_t i = 0; i < amounts.size(); ++i) outflow_[i] += amounts[i];
+    double& mass = goneThrough_[static_cast<std::size_t>(*face++ - context_.mesh.interiorFaces)];
+    for (std::size_t e = 0; e < amounts_.held; ++e) mass += amounts[amounts_.element(e)];
+  });
+}
+
+void EnsembleOperator::addToStatistics(const State& state) {
+  if (!statistics_) return;
+  const auto amountsOf = [&](int cell) {
+    const double* amount = &state.carried[amountsAt(state, cell)];
+    return EnsembleStatistics::CellAmounts{
+        amount[AmountPlaces::number], particles_->volumeOf({amount, amounts_.count()}), amount[amounts_.primaries()],
+        amount[amounts_.surface()], amount[amounts_.diameters()]};
+  };
+  const auto sizesOf = [&](int cell, std::span<double> sizes) {
+    loadAhead(populations_, cell + 1);
+    addSizes(particles_->sizes(), options_.bins, populations_[cell], sizes);
+  };
+  statistics_->addStep(stepEnd_, lastStep_, {amountsOf, sizesOf});
 }
 
 }  // namespace lampblack::coupling

@@ -33,40 +33,47 @@ void EnsembleTransport::takeStock(int cell, std::span<const double> population, 
   content = {};
   content.order = order_.size();
   content.before = arrived.size();
-  content.lightest.fill(std::numeric_limits<double>::infinity());
-  const std::array<std::span<const double>, 2> both{population, arrived};
-  stock_.clear();
-  for (const std::span<const double> rows : both)
+  stock_.resize(options_.rows.count(population) + options_.rows.count(arrived));
+  Stock* next = stock_.data();
+  double all = 0.0;
+  std::array<double, classes> numbers{}, lightest;
+  std::array<int, classes> counts{};
+  lightest.fill(std::numeric_limits<double>::infinity());
+  const auto take = [&](std::span<const double> rows, std::size_t first, bool haveArrived) {
     options_.rows.forEach(rows, [&](const double* row) {
-      const double mass = massAt(row), number = row[packedNumberAt], volume = volumeOf(row);
-      const int k = classOf(volume);
-      content.lightest[k] = std::min(content.lightest[k], mass);
-      content.add(k, number, 1);
-      const int node = exponentOf(volume) - smallest;
-      stock_.push_back(
-          {number, node >= 0 && node < static_cast<int>(nodes) ? static_cast<std::uint32_t>(node) : singles, 1});
+      const double mass = massAt(row), number = row[packedNumberAt], volume = mass * perDensity_;
+      const auto k = static_cast<std::size_t>(classOf(volume));
+      lightest[k] = std::min(lightest[k], mass);
+      all += number;
+      numbers[k] += number;
+      ++counts[k];
+      const auto node = static_cast<std::uint32_t>(exponentOf(volume) - smallest);
+      *next++ = {number, std::min(node, singles), 1,
+                 Content::placeOf(first + static_cast<std::size_t>(row - rows.data()), haveArrived)};
     });
+  };
+  take(population, options_.rows.head, false);
+  take(arrived, 0, true);
+  content.number = all;
+  content.count = static_cast<std::int64_t>(stock_.size());
+  content.numbers = numbers;
+  content.counts = counts;
+  content.lightest = lightest;
   // Pieces of a particle are places one after the other.
   const double whole = content.whole();
   for (Stock& one : stock_) {
     if (one.number > whole && one.node != singles) one.pieces = static_cast<std::uint32_t>(piecesIn(one.number, whole));
     content.upTo[one.node] += one.pieces;
   }
-  std::array<std::uint32_t, nodes + 1> next{};
-  for (std::size_t node = 1; node < next.size(); ++node) next[node] = content.upTo[node] += content.upTo[node - 1];
-  for (std::size_t node = next.size() - 1; node > 0; --node) next[node] = next[node - 1];
-  next[0] = 0;
-  order_.resize(content.order + content.upTo.back());
-  std::size_t k = 0;
-  for (std::size_t of = 0; of < both.size(); ++of) {
-    const std::span<const double> rows = both[of];
-    options_.rows.forEach(rows, [&](const double* row) {
-      const Stock& one = stock_[k++];
-      const std::size_t at = static_cast<std::size_t>(row - rows.data()) + (of == 0 ? options_.rows.head : 0);
-      for (std::uint32_t pieces = one.pieces; pieces > 0; --pieces)
-        order_[content.order + next[one.node]++] = Content::placeOf(at, of == 1);
-    });
+  std::array<std::uint32_t, nodes + 1> begins{};
+  for (std::size_t node = 1; node < begins.size(); ++node) {
+    begins[node] = content.upTo[node - 1];
+    content.upTo[node] += begins[node];
   }
+  order_.resize(content.order + content.upTo.back());
+  std::uint32_t* order = order_.data() + content.order;
+  for (const Stock& one : stock_)
+    for (std::uint32_t pieces = one.pieces; pieces > 0; --pieces) order[begins[one.node]++] = one.place;
 }
 
 // What the chances to leave of a particle depend on, `d` being the diameter (m) of the sphere of its volume (m3).
@@ -241,8 +248,7 @@ void EnsembleTransport::leave(Draw& draw, double* row, int ofClass, const SideVa
       leaving_.push_back({side.face, side.beyond, ofClass, to.size()});
     else
       goneThrough_.push_back(side.face);
-    to.insert(to.end(), row, row + length);
-    to[to.size() - length + packedNumberAt] = inCell * pieces[s] / of;
+    appendRow(to, row, length)[packedNumberAt] = inCell * pieces[s] / of;
   }
   row[packedNumberAt] = stay > 0.0 ? number * stay / of : 0.0;
   draw.content.hasLost = draw.content.hasLost || !(stay > 0.0);

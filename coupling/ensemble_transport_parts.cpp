@@ -9,6 +9,7 @@
 #include "core/first_error.hpp"
 #include "core/random.hpp"
 #include "coupling/ensemble_transport_sides.hpp"
+#include "coupling/load_ahead.hpp"
 #include "flow/properties/wall_transfer.hpp"
 #include "particles/collisions/sphere.hpp"
 
@@ -103,7 +104,10 @@ void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, H
   }
   std::ranges::fill(isFound_, 0);  // the ensembles between the halves have changed the gas
   order_.clear();
-  for (int cell = 0; cell < m.owned; ++cell) takeStock(cell, options_.rows.of(populations[cell]), arrived[cell]);
+  for (int cell = 0; cell < m.owned; ++cell) {
+    loadAhead(populations, cell + 1);
+    takeStock(cell, options_.rows.of(populations[cell]), arrived[cell]);
+  }
   const int parts = findParts(gas, 0.5 * dt);
   parts_ += parts;
   findBoundaries(gas);
@@ -124,6 +128,7 @@ void EnsembleTransport::advance(const Gas& gas, double dt, std::uint64_t step, H
     send(arrived);
   }
   for (int cell = 0; cell < m.owned; ++cell) {
+    loadAhead(populations, cell + 1);
     if (!contents_[cell].hasLost) continue;
     removeGone(populations[cell], options_.rows.head);
     removeGone(arrived[cell], 0);
