@@ -13,8 +13,8 @@
 
 namespace lampblack::flow {
 
-Projection::Projection(const FlowContext& context, std::span<const BoundaryData> known, double tolerance)
-    : context_(context), tolerance_(tolerance) {
+Projection::Projection(const FlowContext& context, std::span<const BoundaryData> known, PressureAccuracy accuracy)
+    : context_(context), accuracy_(accuracy) {
   const Mesh& m = context.mesh;
   PetscInt first = 0;
   const PetscInt owned = m.owned;
@@ -44,8 +44,10 @@ Projection::Projection(const FlowContext& context, std::span<const BoundaryData>
     }
     checkPetsc(KSPGMRESSetRestart(careful_.get(), 100));
   } else {
-    // Pipelined: one reduction an iteration in place of three, beside the work of the next.
-    checkPetsc(KSPSetType(solver_.get(), KSPPIPECG));
+    // Pipelined: one reduction an iteration in place of three, beside the work of the next, which is not worth its
+    // start where a few iterations are enough.
+    const bool isShort = accuracy_.ofLeft > 1e-4;
+    checkPetsc(KSPSetType(solver_.get(), isShort ? KSPCG : KSPPIPECG));
     checkPetsc(KSPSetType(careful_.get(), KSPCG));
   }
   PC preconditioner = nullptr;
@@ -127,7 +129,7 @@ Projection::Iterations Projection::iterate(std::span<const double> guess, double
     checkPetsc(VecGetArray(solution_.get(), &x));
     std::copy_n(guess.begin(), context_.mesh.owned, x);
     checkPetsc(VecRestoreArray(solution_.get(), &x));
-    checkPetsc(KSPSetTolerances(solver, 1e-14, tolerance, PETSC_DEFAULT, isQuick ? mostQuick : most));
+    checkPetsc(KSPSetTolerances(solver, accuracy_.ofLeft, tolerance, PETSC_DEFAULT, isQuick ? mostQuick : most));
     checkPetsc(KSPSetOperators(solver, whole(), matrix_.get()));
     checkPetsc(KSPSetReusePreconditioner(solver, isQuick ? keepsPreconditioner : PETSC_TRUE));
     const auto solve = [&] { return KSPSolve(solver, rightSide_.get(), solution_.get()); };
@@ -206,7 +208,7 @@ Projection::Result Projection::solve(double dt, std::span<const double> inverseD
 
   // The tolerance is absolute: a fraction of the largest face flow, so that continuity holds alike in every step.
   Result result;
-  result.iterations = correct(first, tolerance_ * flowScale, change);
+  result.iterations = correct(first, accuracy_.ofFlow * flowScale, change);
   for (int face = 0; face < m.faces; ++face) {
     if (m.area[face] <= 0.0) continue;
     const double beyond = m.high[face] >= 0 ? change[m.high[face]] : 0.0;

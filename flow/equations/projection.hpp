@@ -20,11 +20,17 @@
 
 namespace lampblack::flow {
 
+// What a solve may leave of continuity, by the root of the sum of squares: of the largest flow through a face, or of
+// what was left before it, whichever is more.
+struct PressureAccuracy {
+  double ofFlow = 1e-9, ofLeft = 1e-14;
+};
+
 class Projection {
  public:
   // Collective. Without an outlet the changes of pressure have the mean zero. `known`: what is known of a change of the
   // pressure at boundary faces, whose value is zero.
-  Projection(const FlowContext& context, std::span<const BoundaryData> known, double tolerance = 1e-9);
+  Projection(const FlowContext& context, std::span<const BoundaryData> known, PressureAccuracy accuracy = {});
 
   struct Result {
     int iterations = 0;            // those of a quick attempt that was in vain included
@@ -57,7 +63,7 @@ class Projection {
   void assemble();
 
   const FlowContext& context_;
-  double tolerance_;
+  PressureAccuracy accuracy_;
   std::vector<PetscInt> row_;  // global matrix row of every local cell
   std::vector<double> conductance_;
   std::vector<double> setupConductance_;  // when the preconditioner was set up
