@@ -9,35 +9,47 @@
 
 namespace lampblack::flow {
 
-Gradient::Gradient(const Mesh& mesh) : mesh_(mesh) {}
+Gradient::Gradient(const Mesh& mesh) : mesh_(mesh) {
+  int rows = 0;
+  row_.reserve(mesh.gradientRow.size());
+  for (const int row : mesh.gradientRow) row_.push_back(row >= 0 ? -1 : rows++);
+  kept_.resize(static_cast<std::size_t>(rows));
+}
 
-const Vector3* Gradient::weights(int cell, std::span<const BoundaryData> known, int components, int first,
-                                 Weights& room) const {
+const Vector3* Gradient::weights(int cell, std::span<const BoundaryData> known, int components, int first) const {
   const Mesh& m = mesh_;
   if (m.gradientRow[cell] >= 0) return &m.gradientWeight[static_cast<std::size_t>(m.gradientRow[cell])];
   const bool isEachComponent = components > 1 && known.size() > static_cast<std::size_t>(m.boundaryFaces());
-  const auto dataOf = [&](int face) {
-    const int b = face - m.interiorFaces;
-    return known.empty() ? BoundaryData::Value : known[isEachComponent ? b * components + first : b];
-  };
-  const auto facesOfCell =
-      std::span(m.faceOfCell).subspan(m.faceStart[cell], m.faceStart[cell + 1] - m.faceStart[cell]);
-  const auto isKnown = [&](int face) { return m.high[face] >= 0 || dataOf(face) == BoundaryData::Value; };
-  if (std::ranges::all_of(facesOfCell, isKnown) && pairedSlopes(m, cell, room)) return room.data();
-  LeastSquares squares;
+  std::array<BoundaryData, Mesh::mostSides> ofFaces{};  // Value of those inside and where there is no face
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
-    const int face = m.faceOfCell[i];
-    const BoundaryData data = m.high[face] >= 0 ? BoundaryData::Value : dataOf(face);
-    if (data == BoundaryData::Value) squares.add(m.step[face]);
-    if (data == BoundaryData::ZeroSlope) squares.add(scaled(m.normal[face], reach(m.distance[face], data)));
+    const int b = m.faceOfCell[i] - m.interiorFaces;
+    if (b >= 0 && !known.empty()) ofFaces[i - m.faceStart[cell]] = known[isEachComponent ? b * components + first : b];
+  }
+  std::vector<Kept>& kept = kept_[static_cast<std::size_t>(row_[cell])];
+  auto found = std::ranges::find(kept, ofFaces, &Kept::known);
+  if (found == kept.end()) {
+    found = kept.insert(kept.end(), {ofFaces, {}});
+    find(cell, ofFaces, found->weights);
+  }
+  return found->weights.data();
+}
+
+void Gradient::find(int cell, std::span<const BoundaryData> ofFaces, Weights& weights) const {
+  const Mesh& m = mesh_;
+  const auto isKnown = [](BoundaryData data) { return data == BoundaryData::Value; };
+  if (std::ranges::all_of(ofFaces, isKnown) && pairedSlopes(m, cell, weights)) return;
+  const auto faces = std::span(m.faceOfCell).subspan(m.faceStart[cell], m.faceStart[cell + 1] - m.faceStart[cell]);
+  LeastSquares squares;
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const int face = faces[i];
+    if (isKnown(ofFaces[i])) squares.add(m.step[face]);
+    if (ofFaces[i] == BoundaryData::ZeroSlope) squares.add(scaled(m.normal[face], reach(m.distance[face], ofFaces[i])));
   }
   squares.finish(m.dimension);
-  for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
-    const int face = m.faceOfCell[i];
-    const double sign = m.low[face] == cell ? 1.0 : -1.0;
-    room[i - m.faceStart[cell]] = isKnown(face) ? squares.weight(scaled(m.step[face], sign)) : Vector3{};
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    const double sign = m.low[faces[i]] == cell ? 1.0 : -1.0;
+    weights[i] = isKnown(ofFaces[i]) ? squares.weight(scaled(m.step[faces[i]], sign)) : Vector3{};
   }
-  return room.data();
 }
 
 void Gradient::compute(std::span<const double> values, std::span<const double> boundary, int components,
@@ -47,13 +59,12 @@ void Gradient::compute(std::span<const double> values, std::span<const double> b
   // Components of the same flags at once.
   const bool isEachComponent = components > 1 && known.size() > static_cast<std::size_t>(m.boundaryFaces());
   const int width = isEachComponent ? 1 : components;
-  Weights room;
   for (int cell = 0; cell < m.owned; ++cell) {
     double* out = gradient.data() + static_cast<std::ptrdiff_t>(cell) * components * d;
     std::fill(out, out + d * components, 0.0);
     const double* own = values.data() + static_cast<std::ptrdiff_t>(cell) * components;
     for (int first = 0; first < components; first += width) {
-      const Vector3* weight = weights(cell, known, components, first, room);
+      const Vector3* weight = weights(cell, known, components, first);
       for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
         if (*weight == Vector3{}) continue;
         const int face = m.faceOfCell[i];
@@ -75,8 +86,7 @@ void Gradient::along(const Vector3& direction, int cell, std::span<const double>
                      std::span<const BoundaryData> known) const {
   const Mesh& m = mesh_;
   std::fill_n(slope.begin(), components, 0.0);
-  Weights room;
-  const Vector3* weight = weights(cell, known, 1, 0, room);
+  const Vector3* weight = weights(cell, known, 1, 0);
   const double* own = values.data() + static_cast<std::ptrdiff_t>(cell) * components;
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
     const double share = dot(*weight, direction);
@@ -92,10 +102,9 @@ void Gradient::beyond(std::span<const double> values, std::span<const double> bo
                       std::span<Beyond> out) const {
   const Mesh& m = mesh_;
   const auto d = static_cast<std::size_t>(m.dimension);
-  Weights room;
   for (int cell = 0; cell < m.owned; ++cell) {
     const auto c = static_cast<std::size_t>(cell);
-    const Vector3* weight = weights(cell, known, 1, 0, room);
+    const Vector3* weight = weights(cell, known, 1, 0);
     out[c] = {};
     for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i, ++weight) {
       if (*weight == Vector3{}) continue;

@@ -54,9 +54,18 @@ class Gradient {
  private:
   using Weights = std::array<Vector3, Mesh::mostSides>;
   // Of each face of an owned cell, for the component whose flags begin at `first`.
-  const Vector3* weights(int cell, std::span<const BoundaryData> known, int components, int first, Weights& room) const;
+  const Vector3* weights(int cell, std::span<const BoundaryData> known, int components, int first) const;
+  void find(int cell, std::span<const BoundaryData> ofFaces, Weights& weights) const;
 
   const Mesh& mesh_;
+  // Of each cell at the boundary, in the order of the cells, those that have been asked for, by what is known at its
+  // faces.
+  struct Kept {
+    std::array<BoundaryData, Mesh::mostSides> known;
+    Weights weights;
+  };
+  std::vector<int> row_;  // of kept_, an owned cell
+  mutable std::vector<std::vector<Kept>> kept_;
 };
 
 // What lies beyond a face of a cell: the values of the other cell, or those at the boundary face (`components` each).

@@ -58,6 +58,25 @@ TEST(Gradient, LinearFieldIsExactOnGradedMesh) {
   EXPECT_LT(gradientError(box, f, dx, dy, true), tolerance) << "without the boundary's values";
 }
 
+// What is known at boundaries may be another each time, and of each component.
+TEST(Gradient, HoldsToWhatIsKnownNow) {
+  Box box = gradedBox(1);
+  const Mesh& m = box.mesh;
+  const Gradient gradient(m);
+  std::vector<double> values(at(2 * m.cells)), boundary(at(2 * m.boundaryFaces()), 0.7);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = std::sin(static_cast<double>(i));
+  const std::array all{BoundaryData::Value, BoundaryData::ZeroSlope, BoundaryData::Nothing};
+  for (std::size_t turn = 0; turn < 4; ++turn)
+    for (const std::size_t each : {1u, 2u}) {
+      std::vector<BoundaryData> known;
+      for (std::size_t i = 0; i < each * at(m.boundaryFaces()); ++i) known.push_back(all[(i + turn * turn) % 3]);
+      std::vector<double> found(at(4 * m.cells)), anew(found.size());
+      gradient.compute(values, boundary, 2, found, known);
+      Gradient(m).compute(values, boundary, 2, anew, known);
+      EXPECT_EQ(found, anew);
+    }
+}
+
 TEST(Gradient, ParabolaIsExactOnGradedMesh) {
   Box box = gradedBox(1);
   EXPECT_LT(gradientError(
