@@ -124,6 +124,51 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
   }
 }
 
+// What was found is kept while all that it is of stays, and no longer.
+TEST(Turbulence, WhatIsAskedAgainIsOfWhatThereIsNow) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const auto axis = uniformAxis(0.007, 7);
+  Box box(Geometry::Planar, {axis, axis},
+          {side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true), side(BoundaryKind::Wall, 1, false),
+           side(BoundaryKind::Wall, 1, true)},
+          gas);
+  const auto model = std::make_shared<PointwiseModel<Probe>>();
+  State state = box.stateWith({TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+                              [&](const Vector3& x) {
+                                return Box::Local{{30.0 * x[0] * x[0], 90.0 * x[0] * x[1]}, 300.0, air};
+                              });
+  GasProperties properties;
+  properties.viscosity.assign(state.density.size(), 1.8e-5);
+  TurbulenceOperator kept(box.context, state, model, properties);
+  kept.setStart(state, {ofMolecules, ofMolecules, 2.0});
+  const auto same = [&](const char* what) {
+    SCOPED_TRACE(what);
+    TurbulenceOperator fresh(box.context, state, model, properties);
+    State ofKept = state, ofFresh = state;
+    for (int again = 0; again < 2; ++again) {
+      ofKept = state;
+      kept.addRates(state, ofKept.balance);
+      kept.setDiffusivities(ofKept);
+    }
+    fresh.addRates(state, ofFresh.balance);
+    fresh.setDiffusivities(ofFresh);
+    EXPECT_EQ(ofKept.balance.carried, ofFresh.balance.carried);
+    EXPECT_EQ(ofKept.balance.carriedSink, ofFresh.balance.carriedSink);
+    EXPECT_EQ(ofKept.carriedDiffusivity, ofFresh.carriedDiffusivity);
+    EXPECT_EQ(ofKept.eddyViscosity, ofFresh.eddyViscosity);
+  };
+  same("first");
+  state.velocity[at(2 * 3)] += 0.1;
+  same("a velocity");
+  state.carried[at(2 * 4 + 1)] *= 1.3;
+  same("a variable");
+  state.density[at(5)] *= 1.1;
+  same("a density");
+  for (double& viscosity : properties.viscosity) viscosity *= 2.0;
+  same("viscosities");
+}
+
 // Rates by a variable's own gradient, as a flow: of the first by its square, of the second along a direction.
 struct Drifting {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false;

@@ -61,6 +61,7 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
     throw std::logic_error("a model of turbulence without the distances from walls");
   cells_.resize(owned);
   rates_.resize(owned);
+  modelled_.resize(owned);
   beside_.resize(owned);
   ratesBeside_.resize(owned);
   slopes_.resize(owned);
@@ -152,11 +153,27 @@ void TurbulenceOperator::findShear() {
   }
 }
 
+// Whether anything of it is another than when the cells were told last, on any rank. A pass of what is carried asks
+// several times of one flow.
+bool TurbulenceOperator::isOtherFlow(const State& state) {
+  const auto follow = [](std::span<const double> now, std::vector<double>& last) {
+    if (std::ranges::equal(now, last)) return 0;
+    last.assign(now.begin(), now.end());
+    return 1;
+  };
+  int others = follow(state.velocity, seen_.velocity) | follow(velocityGradient_.boundary(), seen_.boundary) |
+               follow(state.density, seen_.density) | follow(properties_.viscosity, seen_.viscosity);
+  MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, context_.mesh.comm);
+  return others != 0;
+}
+
 // What velocities and densities tell of the cells.
 void TurbulenceOperator::findFlow(const State& state) {
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(m.dimension);
   velocityGradient_.setBoundary(state.velocity);
+  if (!isOtherFlow(state)) return;
+  areRatesKnown_ = false;
   velocityGradient_.compute(state.velocity);
   gradient_.compute(state.density, boundaryStrain_, 1, densityGradient_, knownDensity_);
   std::copy_n(state.density.begin(), cells_.size(), density_.begin());
@@ -175,9 +192,17 @@ void TurbulenceOperator::findFlow(const State& state) {
 void TurbulenceOperator::findRates(const State& state) {
   const auto d = static_cast<std::size_t>(context_.mesh.dimension);
   const std::size_t n = state.scalars.size();
+  bool isKnown = areRatesKnown_;
   for (std::size_t c = 0; c < state.density.size(); ++c)
-    for (std::size_t v = 0; v < count_; ++v)
-      values_[c * count_ + v] = state.carried[c * n + first_ + v] / state.density[c];
+    for (std::size_t v = 0; v < count_; ++v) {
+      const double value = state.carried[c * n + first_ + v] / state.density[c];
+      isKnown = isKnown && value == values_[c * count_ + v];
+      values_[c * count_ + v] = value;
+    }
+  if (isKnown) {
+    std::ranges::copy(modelled_, rates_.begin());
+    return;
+  }
   gradient_.compute(values_, boundaryValues_, static_cast<int>(count_), valueGradient_, known_);
   if (count_ == 2) gradient_.beyond(values_, boundaryValues_, valueGradient_, known_, mostRise, beyond_);
   for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -192,6 +217,8 @@ void TurbulenceOperator::findRates(const State& state) {
   }
   if (model_->usesWallLaw()) findWallLaw(state);
   model_->evaluate(cells_, rates_);
+  std::ranges::copy(rates_, modelled_.begin());
+  areRatesKnown_ = true;
 }
 
 void TurbulenceOperator::evaluate(const State& state, Tangents tangents) {

@@ -77,6 +77,7 @@ class TurbulenceOperator : public Operator {
   // Of rates by the variables: they become sinks, which steps and iterations take implicitly.
   enum class Tangents { Wanted, Unused };
   void evaluate(const State& state, Tangents tangents);
+  [[nodiscard]] bool isOtherFlow(const State& state);
   void findFlow(const State& state);
   void findRates(const State& state);
   void linearise();
@@ -101,6 +102,11 @@ class TurbulenceOperator : public Operator {
   std::vector<BoundaryData> known_, knownDensity_, knownStrain_;
   std::vector<TurbulentCell> cells_, beside_;  // beside: one variable a little more
   std::vector<TurbulentRates> rates_, ratesBeside_;
+  std::vector<TurbulentRates> modelled_;  // without tangents and what walls make
+  bool areRatesKnown_ = false;            // those of values_ and of the flow that was seen last
+  struct {
+    std::vector<double> velocity, boundary, density, viscosity;
+  } seen_;
   using Slope = std::array<std::array<double, TurbulentCell::most>, TurbulentCell::most>;
   std::vector<Slope> slopes_;  // of the rate of one variable by another; zeros on the diagonal, of which sinks tell
   // Walls for whose layers the law of the wall stands, and of the owned cells beside them what it makes there, and
