@@ -41,7 +41,11 @@ constexpr int stepsOfAttempt = 20, mostOfAttempt = 300, patienceOfAttempt = 30;
 }  // namespace
 
 bool SteadySearch::wantsResidual() const {
-  return phase_ == Phase::Iterations || stepsNow_ % stepsPerResidual == 0;
+  return phase_ == Phase::Iterations || stepsNow_ % stepsPerResidual == 0 || stepsNow_ == leastNow();
+}
+
+int SteadySearch::leastNow() const {
+  return (options_.steps > 0 ? options_.steps : leastSteps) << std::min(returns_, 10);
 }
 
 bool SteadySearch::isNear() const {
@@ -51,7 +55,7 @@ bool SteadySearch::isNear() const {
 
 bool SteadySearch::isEstablished() const {
   if (isNear()) return true;
-  const int least = (options_.steps > 0 ? options_.steps : leastSteps) << std::min(returns_, 10);
+  const int least = leastNow();
   if (stepsNow_ < least) return false;
   if (options_.steps > 0) return true;
   if (stepsNow_ >= mostSteps * least) return true;

@@ -86,6 +86,7 @@ class SteadySearch {
 
  private:
   void beginIterations(const Residual& residual, double heatRelease);
+  [[nodiscard]] int leastNow() const;  // steps before iterations
   [[nodiscard]] bool isEstablished() const;
   [[nodiscard]] bool isNear() const;
   [[nodiscard]] bool isAttemptDue() const;

@@ -89,6 +89,11 @@ TEST(SteadySearch, IteratesOnceTheHeatReleaseIsQuiet) {
   asked.endIterations("");
   EXPECT_EQ(steps(asked), 40);
 
+  SteadySearch askedFew({.steps = 3});
+  EXPECT_EQ(steps(askedFew), 3);
+  askedFew.endIterations("");
+  EXPECT_EQ(steps(askedFew), 6);
+
   // Without reactions there is no flame to wait for, where the residual is low; what fails then is like any other flow.
   SteadySearch inert({.reacts = false});
   EXPECT_EQ(steps(inert, 0.0), 10);
