@@ -131,11 +131,25 @@ void FaceState::limitFed(const State& state, int face) {
   limit(perMass_, boundaryCarried_, carried_, YKnown_, YHeld_);
 }
 
+void FaceState::findPerMass(const State& state) {
+  for (int c = 0; c < context_.mesh.cells; ++c)
+    for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
+}
+
+void FaceState::prepareCarried(const State& state) {
+  const Mesh& m = context_.mesh;
+  findPerMass(state);
+  setBoundaries(state);
+  gradient_.compute(perMass_, boundaryCarried_, carried_, carriedGradient_, carriedKnown_);
+  keepAmountsAtWalls();
+  context_.halo.update(carriedGradient_, m.dimension * carried_);
+  if (m.isSkewed()) carriedBounds_.prepare(perMass_, boundaryCarried_, YKnown_);
+}
+
 void FaceState::prepare(const State& state, std::span<const double> Y) {
   const Mesh& m = context_.mesh;
   Y_ = Y;
-  for (int c = 0; c < m.cells; ++c)
-    for (int s = 0; s < carried_; ++s) perMass_[c * carried_ + s] = state.carried[c * carried_ + s] / state.density[c];
+  findPerMass(state);
   setBoundaries(state);
   gradient_.compute(state.temperature, boundaryTemperature_, 1, temperatureGradient_, temperatureKnown_);
   std::vector<FieldView> gradients{{temperatureGradient_, m.dimension}};

@@ -24,6 +24,8 @@ class FaceState {
   // Collective. Gradients and boundary values of the state's scalars, with these mass fractions of all local cells,
   // which have to stay.
   void prepare(const State& state, std::span<const double> Y);
+  // Collective. Of what is carried alone, in the gas that was prepared.
+  void prepareCarried(const State& state);
 
   // Temperature, density and enthalpy of a face, upwind of `direction` (any quantity with the sign of the flux, low to
   // high or outwards), and to `row` its mass fractions, `species` of them. `state`: the prepared.
@@ -47,6 +49,7 @@ class FaceState {
  private:
   void setBoundaries(const State& state);
   void setCarriedBoundaries();
+  void findPerMass(const State& state);
   void keepAmountsAtWalls();
   // Values at a face of what is fed with a given flux, where it is.
   void limitFed(const State& state, int face);

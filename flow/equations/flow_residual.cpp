@@ -24,7 +24,8 @@ FlowResidual::FlowResidual(const FlowContext& context, const State& state, Veloc
       conducted_(static_cast<std::size_t>(context.mesh.faces)),
       acceleration_(state.velocity.size()),
       velocityOfFaces_(conducted_.size()),
-      row_(static_cast<std::size_t>(state.species)) {
+      row_(static_cast<std::size_t>(state.species)),
+      direction_(conducted_.size()) {
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species), scalars = state.scalars.size();
   rates_.mass.resize(owned);
@@ -52,12 +53,24 @@ const FlowResidual::Rates& FlowResidual::evaluate(const State& state) {
   return rates_;
 }
 
-const FlowResidual::Rates& FlowResidual::evaluateFlow(const State& state) {
+// What comes in from beyond a boundary has a say in the slopes beside it.
+bool FlowResidual::turnsAtBoundary(const State& state) const {
+  int turns = 0;
+  for (int face = context_.mesh.interiorFaces; face < context_.mesh.faces && !turns; ++face)
+    turns = directionOf(state.massFlux[face]) != direction_[face];
+  MPI_Allreduce(MPI_IN_PLACE, &turns, 1, MPI_INT, MPI_MAX, context_.mesh.comm);
+  return turns != 0;
+}
+
+const FlowResidual::Rates& FlowResidual::evaluateFlow(const State& state, Gas gas) {
   const Mesh& m = context_.mesh;
-  faces_.prepare(state, state.Y);
+  const bool isAnew = gas == Gas::Changed || turnsAtBoundary(state);
+  if (isAnew) faces_.prepare(state, state.Y);
   std::ranges::fill(rates_.mass, 0.0);
   for (int face = 0; face < m.faces; ++face) {
-    faces_.interpolate(state, face, state.massFlux[face], row_);
+    const char direction = directionOf(state.massFlux[face]);
+    if (isAnew || direction != direction_[face]) faces_.interpolate(state, face, state.massFlux[face], row_);
+    direction_[face] = direction;
     addFaceFlux(m, face, state.massFlux[face], 1.0, rates_.mass);
   }
   for (int c = 0; c < m.owned; ++c) {
@@ -68,8 +81,11 @@ const FlowResidual::Rates& FlowResidual::evaluateFlow(const State& state) {
   return rates_;
 }
 
-const FlowResidual::Rates& FlowResidual::evaluateCarried(const State& state) {
-  faces_.prepare(state, state.Y);
+const FlowResidual::Rates& FlowResidual::evaluateCarried(const State& state, Gas gas) {
+  if (gas == Gas::Changed)
+    faces_.prepare(state, state.Y);
+  else
+    faces_.prepareCarried(state);
   std::ranges::fill(rates_.carried, 0.0);
   carriedMade_.clear();
   for (Operator* op : operators_)
@@ -86,6 +102,7 @@ void FlowResidual::addGas(const State& state) {
   heatConduction_.presentFlux(state, conducted_);
   for (int face = 0; face < m.faces; ++face) {
     const double flux = state.massFlux[face];
+    direction_[face] = directionOf(flux);
     const double enthalpy = fluxes_.through(state, face, flux, row_) + conducted_[face];
     addFaceFlux(m, face, row_, 1.0, rates_.species);
     addFaceFlux(m, face, enthalpy, 1.0, rates_.enthalpy);

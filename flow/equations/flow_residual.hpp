@@ -44,12 +44,16 @@ class FlowResidual {
   // Collective. The state's halo is filled. NumericsError where the gas has no properties or rates.
   const Rates& evaluate(const State& state);
 
+  // Whether temperature and composition of the gas are those of the last state.
+  enum class Gas { Same, Changed };
+
   // Collective. The same of mass, mass fluxes and momenta alone, where a gas of about the last state has moved or
   // changed: its properties, and all other rates, are those of the last state.
-  const Rates& evaluateFlow(const State& state);
+  const Rates& evaluateFlow(const State& state, Gas gas = Gas::Changed);
 
-  // Collective. The same of what is carried alone, where it or a gas of about the last state has changed.
-  const Rates& evaluateCarried(const State& state);
+  // Collective. The same of what is carried alone, where it or a gas of about the last state has changed; the same gas
+  // flows as it did, too.
+  const Rates& evaluateCarried(const State& state, Gas gas = Gas::Changed);
 
   // Of the last state that was evaluated.
   [[nodiscard]] const Rates& rates() const { return rates_; }
@@ -66,6 +70,8 @@ class FlowResidual {
   void addCarried(const State& state);
   void addMadeOfCarried(const State& state);
   void findForces(const State& state);
+  [[nodiscard]] static char directionOf(double flux) { return static_cast<char>((flux > 0.0) - (flux < 0.0)); }
+  [[nodiscard]] bool turnsAtBoundary(const State& state) const;
 
   const FlowContext& context_;
   std::vector<Operator*> operators_;
@@ -83,6 +89,7 @@ class FlowResidual {
   std::vector<double> conducted_;                       // W, a face
   std::vector<double> acceleration_, velocityOfFaces_;  // m/s2, a component and cell; m/s
   std::vector<double> row_;
+  std::vector<char> direction_;  // of the mass fluxes for which the faces have their gas
 };
 
 }  // namespace lampblack::flow

@@ -199,7 +199,7 @@ void SteadyIteration::advanceCarried(State& state) {
   const double slower = flowCourant() / std::min(courant_, most);
   for (std::size_t c = 0; c < inertia_.size(); ++c) carriedInertia_[c] = slower * flowInertia_[c];
   for (int pass = 0; pass < carriedPasses; ++pass) {
-    residual_.evaluateCarried(state);
+    residual_.evaluateCarried(state, pass > 0 ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
     if (pass > 0 && carried_->isByCell() && ofCarried(state, through(state)) < carriedShare * measure_) break;
     carried_->advance(state, residual_, carriedInertia_);
   }
@@ -214,8 +214,8 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
     std::optional<GasUpdate::LoadAsUnknown> load;
     if (control_) load.emplace(*control_, *beside_);
     GasUpdate::Result gas;
-    if (control_ || !gas_.isAtRest(state, residual_, flowInertia_))
-      gas = gas_.advance(state, residual_, inertia_, load);
+    const bool isAtRest = !control_ && gas_.isAtRest(state, residual_, flowInertia_);
+    if (!isAtRest) gas = gas_.advance(state, residual_, inertia_, load);
     if (control_) control_->scale(state, control_->load() + gas.loadChange);
     keepMass(state, massOf(*before_));
     outcome.gasIterations = gas.iterations;
@@ -223,7 +223,8 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
     outcome.limited = gas.limited;
     hurry();
     for (int pass = 0; pass < flowPasses; ++pass) {
-      residual_.evaluateFlow(state);
+      const bool isSame = pass > 0 || (isAtRest && !context_.isClosed());
+      residual_.evaluateFlow(state, isSame ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
       const FlowUpdate::Result flow = flow_.advance(state, flowInertia_);
       outcome.flowIterations += flow.iterations;
       outcome.pressureIterations += flow.pressureIterations;
