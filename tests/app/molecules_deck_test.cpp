@@ -5,6 +5,7 @@
 
 #include "app/deck/particles_deck.hpp"
 #include "app/deck/population_deck.hpp"
+#include "app/problems/prescribed_gas/prescribed_gas_case.hpp"
 #include "app/problems/reactor/reactor_case.hpp"
 #include "particles/molecules/molecule_ensemble.hpp"
 #include "particles/pah/molecule.hpp"
@@ -137,6 +138,21 @@ TEST(MoleculesDeck, TablesOfStickingAndBandGap) {
   (void)folder.file("sticking.csv", "carbon,temperature [K],probability\n20,1000,0.5\n10,2000,0\n10,1000,0.25\n");
   EXPECT_THAT(test::messageOf<InputError>([&] { (void)readMoleculeOptions(moleculesDeck(tables), mechanism); }),
               testing::HasSubstr("found 3"));
+}
+
+TEST(MoleculesDeck, FormationIsATableOverTime) {
+  const test::ScratchFolder folder;
+  const std::string table = folder.file("formed.csv", "time [ms], formation [mol/cm^3/s]\n0, -1e-9\n2, 3e-9\n");
+  const std::string text =
+      "problem: prescribed_gas\nmechanism: m.yaml\ngas: {file: gas.csv, exchange: one_way}\n"
+      "particles: {description: molecules, pah: [A4], molecules: {inception: by_formation, formation: " + table + "}}\n";
+  const MoleculeOptions o = readMoleculeOptions(Deck::parse(text, "deck.yaml", {}, prescribedGasSchema()),
+                                                shippedMechanism(mechanismOfMolecules));
+  EXPECT_EQ(o.inception, MoleculeOptions::Inception::byFormation);
+  EXPECT_THAT(o.formation.times, testing::ElementsAre(0, 2e-3));
+  ASSERT_EQ(o.formation.rates.size(), 2U);
+  EXPECT_EQ(o.formation.rates[0], 0);
+  EXPECT_NEAR(o.formation.rates[1] / (3e-3 * constants::avogadro), 1, 1e-12);
 }
 
 TEST(MoleculesDeck, MistakesAreTold) {

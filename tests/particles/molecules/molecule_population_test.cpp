@@ -216,6 +216,7 @@ TEST(MoleculePopulation, EachMoleculeThatIsFormedIsAParticle) {
   EXPECT_NEAR(e.inceptions, 8e15, 1.01 * population.weight());
   EXPECT_NEAR(e.gas.back() * constants::avogadro, -e.inceptions, 1e-9 * e.inceptions);
   EXPECT_EQ(e.condensations, 0);
+  EXPECT_GT(population.counters().splitSteps, 12u);  // 400 are born, one in twenty of 500 a step
 }
 
 // Few rings do not stick.
