@@ -54,6 +54,17 @@ transport: {collision_integrals: wang_fits}
                             {"wang_fits", "thesis_fits"}});
 }
 
+TEST(FormerNames, OfAggregates) {
+  expectFormerNamesAreRead(R"(problem: aggregates
+spheres: {material: silica, radius: 10 nm}
+build: {by: equal_pairs, doublings: 3, aggregates: 5}
+gas: {temperature: 2200 K}
+sintering: {step_error: 1e-3}
+time: {end: 1 ms}
+)",
+                           {{"step_error", "tolerance"}});
+}
+
 TEST(FormerNames, OfPrescribedGases) {
   expectFormerNamesAreRead(R"(problem: prescribed_gas
 mechanism: gas.yaml

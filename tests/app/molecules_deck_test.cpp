@@ -145,7 +145,8 @@ TEST(MoleculesDeck, FormationIsATableOverTime) {
   const std::string table = folder.file("formed.csv", "time [ms], formation [mol/cm^3/s]\n0, -1e-9\n2, 3e-9\n");
   const std::string text =
       "problem: prescribed_gas\nmechanism: m.yaml\ngas: {file: gas.csv, exchange: one_way}\n"
-      "particles: {description: molecules, pah: [A4], molecules: {inception: by_formation, formation: " + table + "}}\n";
+      "particles: {description: molecules, pah: [A4], molecules: {inception: by_formation, formation: " +
+      table + "}}\n";
   const MoleculeOptions o = readMoleculeOptions(Deck::parse(text, "deck.yaml", {}, prescribedGasSchema()),
                                                 shippedMechanism(mechanismOfMolecules));
   EXPECT_EQ(o.inception, MoleculeOptions::Inception::byFormation);

@@ -107,7 +107,7 @@ void addGas(DeckSchema& schema) {
   keys.quantity("gas.birth_diameter", units::length, rules().optional().above(0), "Diameter of what is born.");
   keys.section("sintering", Presence::optional, "How spheres that touch become one.");
   addSinteringLawKeys(keys.schema(), "sintering");
-  keys.number("sintering.tolerance", rules().byDefault("1e-4").above(0).atMost(0.1),
+  keys.number("sintering.step_error", rules().formerly("tolerance").byDefault("1e-4").above(0).atMost(0.1),
               "Relative error of a step in the sixth power of a neck's radius.");
   keys.section("time", Presence::optional, "The time in the gas; of aggregates that are built, after that.");
   keys.quantity("time.end", units::time, rules().above(0), "End of the run, from zero.");
@@ -208,7 +208,7 @@ AggregatesCase readAggregatesCase(const Deck& deck) {
   requirePrefactor(deck, "sintering", law);
   if (deck.has("sintering") && !law.active() && !deck.has("sintering.mechanism"))
     throw deck.error("sintering", "a material that is not silica needs the key 'mechanism'");
-  if (deck.has("sintering")) options.sphereTolerance = deck.number("sintering.tolerance");
+  if (deck.has("sintering")) options.sphereTolerance = deck.number("sintering.step_error");
   const bool collide = made.build == AggregatesCase::Build::collisions;
   made.times = readTimes(deck);
   if (!collide) {
