@@ -61,7 +61,7 @@ class PrimaryTrees {
   // smaller tree move.
   [[nodiscard]] Tree coagulated(Tree&& p, Tree&& q, RandomStream& random) const {
     for (Tree* one : {&p, &q})
-      if (isAggregate(one->head()) && one->head().time < clock() && shared_->sinter) shared_->sinter(*one, clock());
+      if (waitsForSintering(one->head(), clock()) && shared_->sinter) shared_->sinter(*one, clock());
     if (bySurface()) return withSurfaceOfBoth(std::move(p), q);
     if (p.count() < q.count()) p.swap(q);
     const std::size_t n = p.count(), m = q.count();

@@ -211,7 +211,7 @@ void TreePopulation::change(Reactions& reactions, const typename Reactions::Sums
     sintering_.advanceLazily(tree, sintered);
     if (!reactions.isActive()) return true;
     const TreeFate fate = reactions.grow(tree, random_);
-    if (fate == TreeFate::changed) sintering_.advanceLazily(tree, sintered, true);
+    if (fate == TreeFate::changed) sintering_.advanceLazily(tree, sintered);
     return fate != TreeFate::gone;
   });
   if (TreeSpheres* spheres = type_.spheres()) sintered.fused += spheres->takeMerged();  // by growth
@@ -225,7 +225,7 @@ void TreePopulation::change(Reactions& reactions, const typename Reactions::Sums
 }
 
 void TreePopulation::applyDeferred() {
-  const auto waits = [&](const Tree& tree) { return isAggregate(tree.head()) && tree.head().time < type_.clock(); };
+  const auto waits = [&](const Tree& tree) { return waitsForSintering(tree.head(), type_.clock()); };
   // Where none does, nothing is rebuilt.
   bool isAnyWaiting = false;
   method_.forEachParticle([&](const Tree& tree, double) { isAnyWaiting = isAnyWaiting || waits(tree); });

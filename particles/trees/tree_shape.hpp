@@ -83,6 +83,10 @@ inline void shapeTree(TreeHead& tree, double inverseDimension, CollisionSize siz
 [[nodiscard, gnu::always_inline]] inline bool isAggregate(const TreeHead& tree) {
   return tree.count > 1 || tree.surface > tree.surfaces;
 }
+// Whether it has surface that is behind the clock (s): what may wait for ever has nothing to sinter.
+[[nodiscard]] inline bool waitsForSintering(const TreeHead& tree, double clock) {
+  return isAggregate(tree) && tree.time < clock && std::isfinite(tree.rest);
+}
 // What results say of a tree: its primaries, by volume and surface those equal ones; their mean diameter; its mean
 // sintering level, by volume and surface the sphere's surface over its own.
 [[nodiscard]] inline double primariesOfTree(const TreeHead& tree) {

@@ -166,7 +166,7 @@ std::size_t TreeSintering::fuse(TreeHead& tree, std::size_t k) {
   return fuseNeck(tree, k, type_.material());
 }
 
-bool TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
+void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
   const TreeNeck* necks = necksOf(&tree);
   const std::uint32_t count = tree.count;
   for (std::uint32_t k = 0; k + 1 < tree.count;) {
@@ -177,9 +177,7 @@ bool TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
     k = static_cast<std::uint32_t>(fuse(tree, k));
     ++changes.fused;
   }
-  if (tree.count == count) return false;
-  type_.measure(tree);
-  return true;
+  if (tree.count != count) type_.measure(tree);
 }
 
 // By steps in the surface, at whose middle the characteristic time is taken; the excess over the sphere's surface,
@@ -250,7 +248,7 @@ void TreeSintering::rest(TreeHead& tree, double time) {
   tree.rest = fastest > 0 ? tolerance_ / fastest : never;
 }
 
-void TreeSintering::advance(Tree& tree, double time, Changes& changes, bool isMeasured) {
+void TreeSintering::advance(Tree& tree, double time, Changes& changes) {
   if (!isAggregate(tree.head())) return;
   const SinteringLaw& law = type_.material().sintering;
   const double dt = std::max(0.0, time - tree.head().time);
@@ -266,16 +264,17 @@ void TreeSintering::advance(Tree& tree, double time, Changes& changes, bool isMe
   if (type_.bySurface())
     surface(tree.own(), dt, changes);
   else if (!law.active())
-    isMeasured = fuseAll(tree.own(), changes) || isMeasured;
+    fuseAll(tree.own(), changes);
   else if (law.between == SinteringLaw::Between::parts)
     parts(tree, dt, changes);
   else
     neighbours(tree, dt, changes);
   TreeHead& head = tree.own();
-  if (law.active())  // primaries have lost sites, and volume with them
+  if (law.active()) {  // primaries have lost sites, and volume with them
     for (std::uint32_t k = 0; k + 1 < head.count; ++k)
       necksOf(&head)[k].sphere = sphereOfNeck(primariesOf(&head), necksOf(&head)[k]);
-  if (law.active() || !isMeasured) type_.measure(head);
+    type_.measure(head);
+  }
   rest(head, std::max(time, head.time));
   tree.fit();
 }

@@ -42,12 +42,12 @@ class TreeSintering {
 
   void setTemperature(double kelvin) { T_ = kelvin; }
   // To a time of the clock; also fuses what growth has left at the level of one primary. A tree that is there already
-  // stays. `isMeasured`: whether its sums are those of its primaries and necks as they are.
-  void advance(Tree& tree, double time, Changes& changes, bool isMeasured = false);
+  // stays. Its sums are those of its primaries and necks, before and after.
+  void advance(Tree& tree, double time, Changes& changes);
   // The same, but for trees that may wait.
-  void advanceLazily(Tree& tree, Changes& changes, bool isMeasured = false) {
+  void advanceLazily(Tree& tree, Changes& changes) {
     const TreeHead& head = tree.head();
-    if (isAggregate(head) && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes, isMeasured);
+    if (isAggregate(head) && type_.clock() - head.time >= head.rest) advance(tree, type_.clock(), changes);
   }
 
   // Each fusion of primaries is told to `fusions`, for who keeps more of primaries than a tree does; null: not.
@@ -78,8 +78,8 @@ class TreeSintering {
   void losePartSites(TreeHead& tree, Changes& changes);
   void loseSites(TreePrimary* primaries, const TreeNeck& neck, double sites, Changes& changes) const;
   void sizePrimaries(TreeHead& tree) const;
-  // Whether any did, and the tree is measured.
-  bool fuseAll(TreeHead& tree, Changes& changes);
+  // The tree is measured where any did.
+  void fuseAll(TreeHead& tree, Changes& changes);
   void rest(TreeHead& tree, double time);
   std::size_t fuse(TreeHead& tree, std::size_t k);
 
