@@ -226,8 +226,11 @@ void EnsembleTransport::send(std::vector<Rows>& arrived) {
         Chain& chain = comingThrough_[2 * static_cast<std::size_t>(face) + (isHigh ? 1 : 0)];
         for (int k = chain.first; k >= 0; k = leaving_[k].next) {
           const double* row = &leavingRows_[leaving_[k].row];
+          const std::size_t length = options_.rows.lengthOf(row);
+          Rows& to = arrived[cell];
+          to.insert(to.end(), row, row + length);
           const double number = row[packedNumberAt] / m.volume[cell];
-          appendRow(arrived[cell], row, options_.rows.lengthOf(row))[packedNumberAt] = number;
+          to[to.size() - length + packedNumberAt] = number;
           contents_[cell].add(leaving_[k].ofClass, number, 1);
         }
         chain = {-1, -1};

@@ -248,7 +248,8 @@ void EnsembleTransport::leave(Draw& draw, double* row, int ofClass, const SideVa
       leaving_.push_back({side.face, side.beyond, ofClass, to.size()});
     else
       goneThrough_.push_back(side.face);
-    appendRow(to, row, length)[packedNumberAt] = inCell * pieces[s] / of;
+    to.insert(to.end(), row, row + length);
+    to[to.size() - length + packedNumberAt] = inCell * pieces[s] / of;
   }
   row[packedNumberAt] = stay > 0.0 ? number * stay / of : 0.0;
   draw.content.hasLost = draw.content.hasLost || !(stay > 0.0);

@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "core/modules.hpp"
 #include "coupling/ensemble_transport.hpp"
@@ -146,17 +145,6 @@ struct EnsembleTransport::Stock {
   std::uint32_t node, pieces;
   std::uint32_t place;  // Content::placeOf()
 };
-
-// A row behind others; where it stands now. Most are of the length that all spheres have, which needs no call.
-inline double* appendRow(std::vector<double>& rows, const double* row, std::size_t length) {
-  const std::size_t at = rows.size();
-  rows.resize(at + length);
-  if (length == packedParticle)
-    std::copy_n(row, packedParticle, &rows[at]);
-  else
-    std::copy_n(row, length, &rows[at]);
-  return &rows[at];
-}
 
 struct EnsembleTransport::Hit {
   std::size_t entry;  // in order_
