@@ -1,4 +1,5 @@
-// What EnsembleOperator tells: its columns of the history, lines of the report, fields, averages, and what left the flow.
+// What EnsembleOperator tells: its columns of the history, lines of the report, fields, averages, and what left the
+// flow.
 #include <fmt/format.h>
 
 #include <algorithm>

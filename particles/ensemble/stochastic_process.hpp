@@ -254,8 +254,8 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
     births_.bear(weight, method_.nucleusWeight(), random_);
   };
   if constexpr (drawsPairs) {
-    // Births between two halves of the collisions, several times where they are several: few collisions are left for the
-    // splitting to reorder.
+    // Births between two halves of the collisions, several times where they are several: few collisions are left for
+    // the splitting to reorder.
     const double births = std::ceil(inception * dt / method_.nucleusWeight());
     const int times = kernel_ && births > 1 ? static_cast<int>(std::min(births, mostBirthsOfJump)) : 1;
     const double part = dt / times;

@@ -59,7 +59,7 @@ class PairSampling {
   static void withRate(const PairPopulation<Type>& population, F&& f);
   // With all that it calls: an event waits for each result on its way, and for what goes through memory longest.
   [[gnu::flatten]] void happen(PairPopulation<Type>& population, std::size_t i, std::size_t j, double p, double u,
-              PopulationCounters& counters);
+                               PopulationCounters& counters);
   // Of p: the larger of what the heavier one loses of its weight and the lighter one gains in volume.
   static double shareOf(const typename PairPopulation<Type>::Row& i, const typename PairPopulation<Type>::Row& j) {
     const bool heavier = i.weight >= j.weight;
