@@ -103,6 +103,37 @@ TEST_F(Diffusion, AgreesWithDenseEliminationForEveryField) {
   }
 }
 
+// Of more fields than go together, with sinks, and boundaries that hold the change: what the equations say is left.
+TEST_F(Diffusion, ChangesHaveTheRatesOfTheirEquations) {
+  constexpr int many = 11;
+  const auto through = [&](int face, int k) {
+    return std::pow(2.0, k - 5) * (1.0 + m.faceCentre[at(face)][1]) * m.area[at(face)] / m.distance[at(face)];
+  };
+  const auto conductance = [&](int face, std::span<const int> of, double* g) {
+    for (std::size_t i = 0; i < of.size(); ++i) g[i] = through(face, of[i]);
+  };
+  std::vector<double> inertia, sinks, change(at(many * m.cells)), rates;
+  for (int c = 0; c < m.owned; ++c) {
+    inertia.push_back(diagonalOf(m.naturalCell[at(c)], 0));
+    for (int k = 0; k < many; ++k) {
+      sinks.push_back(0.3 * k);
+      rates.push_back(sourceOf(m.naturalCell[at(c)], k));
+    }
+  }
+  std::ranges::copy(rates, change.begin());
+  ImplicitDiffusion(m, box.halo).changes(many, inertia, conductance, change, 1e-10, 100000, sinks);
+  for (int c = 0; c < m.owned; ++c)
+    for (int k = 0; k < many; ++k) {
+      const double own = change[at(c * many + k)];
+      double rate = (inertia[at(c)] + sinks[at(c * many + k)]) * own;
+      for (int i = m.faceStart[at(c)]; i < m.faceStart[at(c + 1)]; ++i) {
+        const int face = m.faceOfCell[at(i)], beyond = m.low[at(face)] == c ? m.high[at(face)] : m.low[at(face)];
+        rate += through(face, k) * (own - (beyond >= 0 ? change[at(beyond * many + k)] : 0.0));
+      }
+      EXPECT_NEAR(rate, rates[at(c * many + k)], 1e-5);  // conductances of single precision
+    }
+}
+
 TEST_F(Diffusion, FillsTheHaloOfTheSolution) {
   std::vector<double> x = solve(1e-10);
   std::vector<double> again = x;
