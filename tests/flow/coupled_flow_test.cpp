@@ -94,5 +94,47 @@ TEST(CoupledFlow, FollowsGasThatPassesThrough) {
   EXPECT_LT(left[2], 0.03);
 }
 
+// A jet in cells of unequal width, whose velocities differ from cell to cell: what mass fluxes bring matters.
+TEST(CoupledFlow, FollowsAJet) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> n2 = gas.massFractions("N2: 1");
+  Side wall = side(BoundaryKind::Wall, 0, true);
+  wall.condition.slip = false;
+  const Axes axes{std::vector<double>{0.0, 0.0005, 0.0015, 0.0035, 0.0075},
+                  std::vector<double>{0.0, 0.001, 0.0025, 0.005, 0.009, 0.015}};
+  Box box{Geometry::Axisymmetric,
+          axes,
+          {side(BoundaryKind::Symmetry, 0, false), wall, opening(BoundaryKind::Inlet, 1, false, 0.2, 300.0, n2),
+           opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, n2)}};
+  State state = box.state([&](const Vector3& x) {
+    return Box::Local{{0.0, 0.4 * (1.0 - x[0] * x[0] / (0.0075 * 0.0075)) * (1.0 + 20.0 * x[1])}, 300.0, n2};
+  });
+  for (int face = 0; face < box.mesh.faces; ++face)
+    state.massFlux[at(face)] = 0.2 * state.density[0] * box.mesh.area[at(face)] * box.mesh.normal[at(face)][1];
+  const std::array<double, 3> left = leftBySteps(box, state, 8);
+  const bool isWhole = box.mesh.owned == 20;
+  EXPECT_LT(left[0], isWhole ? 1e-3 : 1e-2);
+  EXPECT_LT(left[1], isWhole ? 1e-9 : 1e-2);
+  EXPECT_LT(left[2], isWhole ? 1.2e-3 : 1e-2);
+}
+
+// In a short pseudo-time velocities change by no more than it lets them.
+TEST(CoupledFlow, GoesSlowlyInAShortTime) {
+  Box box = thinCells(2.0);
+  State state = wavesIn(box, 2.0, 1e-3);
+  FlowResidual residual(box.context, state, VelocityScheme::Limited, {});
+  CoupledFlow flow(box.context, state, residual);
+  residual.evaluate(state);
+  const double inertia = 1.0;  // kg/s, a thousand times what flows and is conducted
+  flow.prepare(state, std::vector<double>(at(box.mesh.owned), inertia));
+  flow.left() = {residual.rates().momentum, std::vector<double>(at(box.mesh.owned), 0.0),
+                 std::vector<double>(at(box.mesh.faces), 0.0)};
+  const CoupledFlow::Change& change = flow.find();
+  const double most = leftOfFlow(box.mesh, residual.rates())[0] / inertia;
+  const double found = largest(box.mesh, [&](int c) { return std::abs(change.velocity[2 * at(c) + 1]); });
+  EXPECT_LT(found, 2.0 * most);
+  EXPECT_GT(found, 1e-3 * most);
+}
+
 }  // namespace
 }  // namespace lampblack::test
