@@ -63,6 +63,20 @@ std::vector<std::string> joinedWithUnits(std::vector<std::string> names) {
   return names;
 }
 
+// InputError for "time_ms", which would be read in SI.
+void refuseUnitInName(const std::string& name, const std::string& unit, const units::Dimension& dimension) {
+  const std::size_t end = name.rfind('_');
+  if (!unit.empty() || end == std::string::npos || end + 1 == name.size()) return;
+  const std::string tail = name.substr(end + 1);
+  try {
+    if (TableColumn(name, tail, dimension).inSI(1) == 1) return;
+  } catch (const InputError&) {
+    return;  // no unit
+  }
+  throw InputError(fmt::format("the column '{}' has no unit in brackets and would be read in SI; write '{} [{}]'", name,
+                               name.substr(0, end), tail));
+}
+
 }  // namespace
 
 TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimension& pointDimension,
@@ -95,6 +109,8 @@ TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimens
       try {
         const auto [pointName, pointUnit] = nameAndUnit(names[0]);
         const auto [valueName, valueUnit] = nameAndUnit(names[1]);
+        refuseUnitInName(pointName, pointUnit, pointDimension);
+        refuseUnitInName(valueName, valueUnit, valueDimension);
         pointColumn = TableColumn(pointName, pointUnit, pointDimension);
         valueColumn = TableColumn(valueName, valueUnit, valueDimension);
       } catch (const InputError& error) {

@@ -49,7 +49,7 @@ const std::vector<Problem>& problems() {
       {"engine",
        "The gas of an engine's cylinder while its valves are closed, as particles that mix, react and lose heat at one "
        "pressure: the stochastic reactor model.",
-       engineSchema, prepareEngine},
+       engineSchema, prepareEngine, true},
   };
   return table;
 }

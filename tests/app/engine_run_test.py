@@ -1,13 +1,16 @@
-"""An engine, from the deck to the pictures: the same numbers on any number of ranks, balances with injection and residual gas, repeats
-with intervals.
+"""An engine, from the deck to the pictures: the same numbers on any number of ranks and after a restart, balances with injection and
+residual gas, repeats with intervals.
 
 Usage: engine_run_test.py EXECUTABLE MPIEXEC...
 """
 
 import json
 import pathlib
+import signal
+import subprocess
 import sys
 import tempfile
+import time
 
 import running
 
@@ -28,6 +31,25 @@ output: {every: 4 deg, particles_at: [-60 deg, 0 deg, 120 deg], species: [H2, OH
 """
 
 
+def check_restart(executable: str, deck: pathlib.Path, whole: pathlib.Path, *settings: str) -> None:
+    """Stopped where a checkpoint is there, gone on: the numbers of a run that was left alone. Checkpoints at every row, or repeat."""
+    out = whole.with_name(whole.name + "_stopped")
+    command = [executable, "run", str(deck), "--out", str(out), *running.settings("checkpoint.wall_time=1 us", *settings)]
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=running.environment())
+    while process.poll() is None and not list((out / "checkpoint").glob("step_*.h5")):
+        time.sleep(0.005)
+    process.send_signal(signal.SIGTERM)
+    assert process.wait() in (0, 128 + signal.SIGTERM), process.returncode
+    went_on = subprocess.run([*command, "--restart"], capture_output=True, text=True, env=running.environment(), check=False)
+    assert went_on.returncode == 0, went_on.stderr
+    first, second = running.datasets(whole / "results.h5"), running.datasets(out / "results.h5")
+    different = [name for name in first if first[name].tobytes() != second[name].tobytes()]
+    assert not different and first.keys() == second.keys(), f"after a restart other numbers in {different}"
+    other = subprocess.run([*command, *running.settings("sample.particles=9"), "--restart", "--force"], capture_output=True, text=True,
+                           env=running.environment(), check=False)
+    assert other.returncode != 0 and "deck but for repeats" in other.stderr, other
+
+
 def main(executable: str, *mpiexec: str) -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -41,6 +63,7 @@ def main(executable: str, *mpiexec: str) -> None:
                 runs[ranks] = running.datasets(out / "results.h5")
             different = [name for name in runs[1] if runs[1][name].tobytes() != runs[2][name].tobytes()]
             assert not different, f"2 ranks: other numbers than on one in {different}"
+            check_restart(executable, deck, folder / f"{len(settings)}_1", *settings)
         data = running.datasets(folder / "0_1/results.h5")
         h = {name.removeprefix("history/"): values for name, values in data.items() if name.startswith("history/")}
         results = json.loads((folder / "0_1/run.json").read_text(encoding="utf-8"))["results"]
@@ -62,7 +85,7 @@ def main(executable: str, *mpiexec: str) -> None:
         assert drawn.code == 0, drawn
         for picture in ("cycle", "emissions", "scatter"):
             assert (folder / "0_1" / "pictures" / f"{picture}.png").exists(), picture
-    print("ranks, balances, cycles, repeats and pictures agree")
+    print("ranks, restarts, balances, cycles, repeats and pictures agree")
 
 
 main(*sys.argv[1:])

@@ -145,6 +145,8 @@ def main(executable: str, *mpiexec: str) -> int:
         runs["molecules"] = (CASES / "pah/pyrene_growth/deck.yaml", *running.settings("repeats=20", "gas.end=5 us", "output.spectra=[5 us]"))
         runs["engine"] = (CASES / "engine/hcci_natural_gas/deck.yaml", *running.settings(
             "sample.particles=4", "sample.repeats=2", "step.angle=2 deg", "output.every=8 deg", "cycles={residual: 0.1, most: 2}"))
+        runs["engine_soot"] = (CASES / "engine/hcci_ethylene_soot/deck.yaml", *running.settings(
+            *(line for line in (running.SOURCE / ".ci/smoke/hcci_ethylene_soot.txt").read_text(encoding="utf-8").splitlines() if line[0] != "#")))
         runs["compression"] = (CASES / "reactor/rapid_compression/deck.yaml", *running.settings(
             "volume={law: slider_crank, bore: 80 mm, stroke: 90 mm, rod: 150 mm, compression_ratio: 10, speed: 1000 rpm}"))
         runs["aggregates"] = (CASES / "aggregates/ballistic/deck.yaml", *running.settings("build.doublings=2", "build.aggregates=4", "repeats=2"))

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "chemistry/kinetics/kinetics.hpp"
+#include "chemistry/reactor/closed_reactor.hpp"
 #include "chemistry/reactor/stiff_integrator.hpp"
 #include "tests/chemistry/engine_particles.hpp"
 #include "tests/every_module.hpp"
@@ -269,6 +270,55 @@ TEST(EngineCylinder, StepsThatChangeTooMuchAreHalved) {
   EXPECT_GT(run.ledger().steps, 45);
   const double hydrogenMass = gas.mass[0] * gas.Y(0)[hydrogen().speciesIndex("H2")];
   EXPECT_NEAR(run.ledger().chemical / hydrogenMass, 1.2e8, 0.03e8);
+}
+
+// Steam that comes apart in a volume at rest against a closed reactor: without the growth that is foreseen the
+// reactions would be at a pressure without their own half, of first order.
+TEST(EngineCylinder, TheGrowthOfReactionsIsForeseen) {
+  const EngineGas gas = full(engineGas({{2600, steam}}));
+  const Thermo thermo(hydrogen());
+  constexpr double end = 2e-5;
+  const GasState start{2600, gas.pressure, {gas.Y(0).begin(), gas.Y(0).end()}};
+  ClosedReactor closed(hydrogen(), start, ReactorSystem::Held::Density);
+  StiffIntegrator integrator(closed, {1e-11, 1e-16, 0, 100000});
+  integrator.start(0, closed.initialState(), end);
+  while (integrator.time() < end) integrator.step();
+  const double exact = integrator.state()[hydrogen().numSpecies()];
+  std::vector<double> errors;
+  for (const double steps : {10.0, 20.0, 40.0}) {
+    EngineOptions options = cylinder(end / steps);
+    options.volume = [](double) { return startVolume; };
+    EngineCylinder run(MPI_COMM_SELF, hydrogen(), thermo, options);
+    run.start(gas, 0);
+    run.advanceTo(end);
+    errors.push_back(std::abs(run.gas().temperature[0] - exact));
+  }
+  printf("steam at rest: 2600 to %g K; errors %g %g %g\n", exact, errors[0], errors[1], errors[2]);
+  EXPECT_GT(errors[0] / errors[1], 3);
+  EXPECT_GT(errors[1] / errors[2], 3);
+}
+
+// A step that is taken back leaves nothing: its halves are those of a run with steps of half the length.
+TEST(EngineCylinder, AStepTakenBackLeavesNothing) {
+  const EngineGas gas = full(engineGas({{2600, steam}}));
+  const Thermo thermo(hydrogen());
+  constexpr double end = 1e-5;
+  const auto after = [&](double step, double tolerance) {
+    EngineOptions options = cylinder(step);
+    options.volume = [](double) { return startVolume; };
+    options.pressureTolerance = tolerance;
+    EngineCylinder run(MPI_COMM_SELF, hydrogen(), thermo, options);
+    run.start(gas, 0);
+    run.advanceTo(end);
+    return std::pair(run.gas().temperature[0], run.ledger());
+  };
+  const auto [plain, whole] = after(end, 10);
+  const auto [halved, back] = after(end, 0.9 * whole.largestDefect);
+  const auto [exact, halves] = after(0.5 * end, 10);
+  EXPECT_EQ(back.rejected, 1);
+  EXPECT_EQ(halves.steps, 2);
+  EXPECT_EQ(halved, exact);
+  EXPECT_NE(halved, plain);
 }
 
 TEST(EngineInjection, MergesTheNearestAndRefusesVapourThatIsTooCold) {

@@ -25,13 +25,19 @@ struct Shipped {
 };
 
 constexpr Shipped kShipped[] = {
-    {"ethylene_abf2000_101.yaml", 101, 544, true}, {"ethylene_bisetti2012_47.yaml", 47, 224, true},
-    {"ethylene_km2_202.yaml", 202, 1350, true},    {"ethylene_narayanaswamy2010_158.yaml", 158, 1049, true},
-    {"heptane_yoo2011_88.yaml", 88, 729, true},    {"hydrogen_h2o2_10.yaml", 10, 29, true},
+    {"ethylene_abf2000_101.yaml", 101, 544, true},
+    {"ethylene_bisetti2012_47.yaml", 47, 224, true},
+    {"ethylene_km2_202.yaml", 202, 1350, true},
+    {"ethylene_narayanaswamy2010_158.yaml", 158, 1049, true},
+    {"heptane_yoo2011_88.yaml", 88, 729, true},
+    {"hydrogen_h2o2_10.yaml", 10, 29, true},
     {"hydrogen_sandiego_9.yaml", 9, 21, true},
-    {"methane_drm19_21.yaml", 21, 84, true},       {"methane_gri30_53.yaml", 53, 325, true},
-    {"methane_teos_29.yaml", 29, 92, true},        {"perfect_gas_1.yaml", 1, 0, true},
-    {"perfect_gas_soot_9.yaml", 9, 0, true},       {"silica_teos_29.yaml", 29, 59, false},
+    {"methane_drm19_21.yaml", 21, 84, true},
+    {"methane_gri30_53.yaml", 53, 325, true},
+    {"methane_teos_29.yaml", 29, 92, true},
+    {"perfect_gas_1.yaml", 1, 0, true},
+    {"perfect_gas_soot_9.yaml", 9, 0, true},
+    {"silica_teos_29.yaml", 29, 59, false},
 };
 
 class ShippedMechanism : public ::testing::TestWithParam<Shipped> {

@@ -7,9 +7,9 @@
 #include "chemistry/reactor/plug_flow.hpp"
 #include "coupling/reactor_balance.hpp"
 #include "tests/chemistry/mechanism_text.hpp"
+#include "tests/coupling/ethylene_models.hpp"
 #include "tests/coupling/toy_particles.hpp"
 #include "tests/every_module.hpp"
-#include "tests/particles/models/published_models.hpp"
 
 namespace lampblack::coupling {
 namespace {
@@ -120,18 +120,9 @@ TEST(ReactorParticles, StirredReactorsInARowHaveTheClosedSolution) {
   }
 }
 
-std::unique_ptr<SootModel> modelOf(const std::string& name) {
-  const auto weight = [](const char* element) { return ethylene().atomicWeight(ethylene().elementIndex(element)); };
-  SootModelOptions shared;
-  shared.pah = {{"A2", 10, 8, 2e-3}};
-  shared.carbonWeight = weight("C");
-  shared.hydrogenWeight = weight("H");
-  return test::publishedModel(name, shared);
-}
-
 class EveryModel : public ::testing::TestWithParam<std::string> {
  protected:
-  CarriedParticles soot{ethylene(), modelOf(GetParam())};
+  CarriedParticles soot{ethylene(), test::modelOf(GetParam())};
   ReactorParticles particles{ethylene(), soot};
   ReactorBalance balance{ethylene(), particles, particles.unitElements()};
   std::size_t n = ethylene().numSpecies();

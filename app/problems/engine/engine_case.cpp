@@ -6,7 +6,11 @@
 #include <numbers>
 
 #include "app/deck/gas_input.hpp"
+#include "app/deck/particles_deck.hpp"
+#include "app/deck/soot_deck.hpp"
+#include "app/problems/engine/engine_rows.hpp"
 #include "chemistry/thermo/equilibrium.hpp"
+#include "coupling/reactor_particles.hpp"
 #include "io/request_limits.hpp"
 
 namespace lampblack::app {
@@ -174,8 +178,26 @@ void readNumerics(const Deck& deck, EngineCase& made) {
       throw deck.error("output.particles_at", "expected angles that rise, between engine.start and engine.end");
   }
   made.species = readSpeciesList(deck, "output.species", *made.mechanism);
+  made.checkpoints = checkpointKeys("more repeats").read(deck);
   requireMemory(deck, "sample.particles", fmt::format("{} particles", made.particles),
                 24.0 * static_cast<double>(made.particles * made.mechanism->numSpecies()));
+}
+
+void readSoot(const Deck& deck, EngineCase& made) {
+  const Mechanism& mechanism = *made.mechanism;
+  if (auto model = readSootModel(deck, mechanism)) {
+    if (deck.isGiven("particles.diffusion"))
+      throw deck.error("particles.diffusion",
+                       "particles of gas have no place, nothing diffuses between them; leave this key out");
+    made.soot = std::make_shared<CarriedParticles>(mechanism, std::move(model));
+    deck.at(particleSection, [&] { const ReactorGas gas(mechanism, made.soot->exchanged()); });
+    if (carriedModel(deck) == "sectional") made.sootAtLimit = deck.number("particles.sectional.overflow");
+  }
+  if (hasPopulation(deck)) made.population = readPopulation(deck, made.mechanism);
+  if (!made.soot && !made.population) return;
+  // Soot along the mean gas sees what the history tells.
+  made.species.clear();
+  for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) made.species.push_back(k);
 }
 
 }  // namespace
@@ -198,6 +220,11 @@ EngineCase readEngineCase(const Deck& deck) {
   readWalls(deck, made);
   readMixing(deck, made);
   readInjection(deck, made);
+  if (deck.has(particleSection)) readSoot(deck, made);
+  // Of each repeat on the first rank, as it is gathered and as it is written.
+  requireMemory(deck, "sample.repeats", fmt::format("the rows of {} repeats", made.repeats),
+                16.0 * static_cast<double>(made.repeats) *
+                    static_cast<double>(made.angles().size() * engineQuantities(made).size()));
   return made;
 }
 

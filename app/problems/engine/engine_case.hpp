@@ -4,13 +4,17 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/deck/checkpoint_deck.hpp"
+#include "app/deck/population_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/reactor/engine/engine_cylinder.hpp"
 #include "chemistry/reactor/slider_crank.hpp"
 #include "core/modules.hpp"
+#include "coupling/carried_particles.hpp"
 #include "io/deck.hpp"
 
 namespace lampblack::app {
@@ -38,6 +42,10 @@ struct EngineCase {
   double every = 0;                  // deg, between rows
   std::vector<double> particlesAt;   // deg
   std::vector<std::size_t> species;  // of the history, the particles and the emissions
+  CheckpointTimes checkpoints;
+  std::shared_ptr<CarriedParticles> soot;       // that each particle of gas carries; null: nothing
+  double sootAtLimit = 1;                       // largest part of its volume in the largest particles of the model
+  std::optional<PopulationRequest> population;  // along the mean gas
 
   [[nodiscard]] double timeOf(double angle) const { return (angle - start) / (360 * speed); }
   [[nodiscard]] std::vector<double> angles() const;  // of the rows

@@ -5,19 +5,23 @@
 #include <algorithm>
 #include <limits>
 
+#include "app/problems/engine/engine_along.hpp"
 #include "app/problems/engine/engine_case.hpp"
+#include "app/problems/engine/engine_checkpoint.hpp"
 #include "app/problems/engine/engine_output.hpp"
 #include "app/problems/engine/engine_repeat.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/repeats.hpp"
 #include "core/stop_request.hpp"
+#include "io/csv.hpp"
 #include "io/history.hpp"
 #include "io/progress.hpp"
 
 namespace lampblack::app {
 namespace {
 
+// A repeat that was cut off by a request to stop.
 struct EngineCut {};
 
 class PreparedEngine : public PreparedRun {
@@ -38,16 +42,28 @@ class PreparedEngine : public PreparedRun {
   }
 
   void run(const RunOptions& options) override {
-    recordedRun(comm_, deck_, options, case_.seed,
-                [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-                  const double begin = MPI_Wtime();
-                  const std::vector<double> repeats = case_.repeats == 1 ? runOne() : runAll();
-                  const double seconds = MPI_Wtime() - begin;
-                  record.stages = {{"cycles", seconds, seconds, seconds}};
-                  record.simulatedTime = case_.timeOf(case_.end);
-                  record.peakMemoryPerRank = peakMemory(comm_);
-                  write(folder, info, repeats, record);
-                });
+    const std::optional<WholeCheckpoint> restart = chosenCheckpoint(comm_, options);
+    if (case_.repeats == 1) progress_.present.emplace(comm_, case_, 0);
+    if (restart) loadProgress(comm_, *restart, engineFingerprint(deck_, case_), engineOwners(progress_));
+    if (progress_.done > case_.repeats)
+      throw InputError(fmt::format("{}: this checkpoint has {} repeats, more than 'sample.repeats: {}'",
+                                   restart->file.string(), progress_.done, case_.repeats));
+    recordedRun(
+        comm_, deck_, options, case_.seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+          if (restart) recordRestart(*restart, record);
+          const double begin = MPI_Wtime();
+          SavedProgress checkpoints(comm_, folder.path(), engineFingerprint(deck_, case_), case_.checkpoints.wallTime);
+          if (progress_.present)
+            runOne(checkpoints);
+          else
+            runAll(checkpoints);
+          if (case_.checkpoints.atEnd) (void)save(checkpoints);
+          const double seconds = MPI_Wtime() - begin;
+          record.stages = {{"cycles", seconds, seconds, seconds}};
+          record.simulatedTime = case_.timeOf(case_.end);
+          record.peakMemoryPerRank = peakMemory(comm_);
+          write(folder, info, record);
+        });
   }
 
  private:
@@ -60,54 +76,72 @@ class PreparedEngine : public PreparedRun {
     all.push_back(done.isConverged ? 1 : 0);
     return all;
   }
-  void keep(EngineRepeat&& done) {
-    particles_ = std::move(done.particles);
-    cycles_ = std::move(done.cycles);
+  void keep(const EngineRepeat& done) {
+    progress_.particles = done.particles;
+    progress_.cycles = done.cycles;
+  }
+  std::filesystem::path save(SavedProgress& checkpoints) {
+    const std::size_t number = progress_.present ? progress_.present->stops() : progress_.done;
+    return checkpoints.save(static_cast<std::int64_t>(number), engineOwners(progress_));
   }
 
   // All ranks share the reactions.
-  [[nodiscard]] std::vector<double> runOne() {
+  void runOne(SavedProgress& checkpoints) {
+    EngineCycles& cycles = *progress_.present;
     Progress said(comm_, case_.start, case_.end, Progress::logInterval);
-    EngineRepeat done = runEngine(comm_, case_, 0, [&](std::size_t cycle, double angle) {
-      if (const int signal = agreedStopRequest(comm_); signal != 0) {
-        said.finish();
-        raiseStopped(comm_, signal, fmt::format("at {:g} deg of cycle {}, of which nothing is kept", angle, cycle + 1));
-      }
-      said.say(fmt::format("cycle {}, {:g} deg", cycle + 1, angle), angle);
-    });
+    while (!cycles.isDone()) {
+      cycles.advance();
+      int isDue = checkpoints.isDue();
+      const int signal = agreedStopRequest(comm_, {&isDue, 1});
+      if (signal != 0 || isDue != 0) said.finish();
+      if (signal != 0)
+        raiseStopped(comm_, signal,
+                     fmt::format("at {:g} deg of cycle {}, which {} has", cycles.angle(), cycles.cycle() + 1,
+                                 save(checkpoints).string()));
+      if (isDue != 0) (void)save(checkpoints);
+      said.say(fmt::format("cycle {}, {:g} deg", cycles.cycle() + 1, cycles.angle()), cycles.angle());
+    }
     said.finish();
-    const std::vector<double> all = packed(done);
-    keep(std::move(done));
-    return all;
+    if (progress_.done > 0) return;
+    progress_.repeats = packed(cycles.result());
+    keep(cycles.result());
+    progress_.done = 1;
   }
 
   // Each rank has repeats of its own.
-  [[nodiscard]] std::vector<double> runAll() {
+  void runAll(SavedProgress& checkpoints) {
     Progress said(comm_, 0, static_cast<double>(case_.repeats), Progress::logInterval);
-    std::vector<double> all;
-    for (std::uint64_t done = 0; done < case_.repeats;) {
-      const std::uint64_t end = std::min(done + static_cast<std::uint64_t>(ranks_), case_.repeats);
+    while (progress_.done < case_.repeats) {
+      const std::uint64_t end = std::min(progress_.done + static_cast<std::uint64_t>(ranks_), case_.repeats);
       const std::vector<double> some = gatherRepeats(
-          comm_, done, end, width(), [&](std::uint64_t repeat, std::span<double> row) { one(repeat, row); });
-      all.insert(all.end(), some.begin(), some.end());
-      if (const int signal = agreedStopRequest(comm_); signal != 0) {
+          comm_, progress_.done, end, width(), [&](std::uint64_t repeat, std::span<double> row) { one(repeat, row); });
+      int isDue = checkpoints.isDue();
+      if (const int signal = agreedStopRequest(comm_, {&isDue, 1}); signal != 0) {
         said.finish();
-        raiseStopped(comm_, signal, "in the middle of the repeats, of which nothing is kept");
+        // Without those just done, of which one may have been cut off.
+        raiseStopped(comm_, signal,
+                     fmt::format("after {} repeats, which {} has", progress_.done, save(checkpoints).string()));
       }
-      done = end;
-      said.say(fmt::format("repeat {} of {}", done, case_.repeats), static_cast<double>(done));
+      progress_.repeats.insert(progress_.repeats.end(), some.begin(), some.end());
+      progress_.done = end;
+      if (isDue != 0) {
+        said.finish();
+        (void)save(checkpoints);
+      }
+      said.say(fmt::format("repeat {} of {}", progress_.done, case_.repeats), static_cast<double>(progress_.done));
     }
     said.finish();
-    return all;
   }
 
   void one(std::uint64_t repeat, std::span<double> row) {
     try {
-      EngineRepeat done = runEngine(MPI_COMM_SELF, case_, repeat, [](std::size_t, double) {
+      EngineCycles cycles(MPI_COMM_SELF, case_, repeat);
+      while (!cycles.isDone()) {
+        cycles.advance();
         if (stopRequest() != 0) throw EngineCut{};
-      });
-      std::ranges::copy(packed(done), row.begin());
-      if (repeat == 0) keep(std::move(done));
+      }
+      std::ranges::copy(packed(cycles.result()), row.begin());
+      if (repeat == 0) keep(cycles.result());
     } catch (const EngineCut&) {
       std::ranges::fill(row, std::numeric_limits<double>::quiet_NaN());
     } catch (const NumericsError& error) {
@@ -115,7 +149,8 @@ class PreparedEngine : public PreparedRun {
     }
   }
 
-  void write(const RunFolder& folder, const RunInfo& info, const std::vector<double>& repeats, RunRecord& record) {
+  void write(const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+    const std::vector<double>& repeats = progress_.repeats;
     const std::vector<Quantity> summaryQuantities = engineSummaryQuantities(case_);
     std::vector<double> history, rows, summaries;
     bool isConverged = true;
@@ -127,17 +162,21 @@ class PreparedEngine : public PreparedRun {
       isConverged = isConverged && repeats[(r + 1) * width() - 1] != 0;
     }
     if (rank_ == 0) history = engineHistory(case_, rows);
+    EngineSootTable soot;
+    if (case_.soot || case_.population) soot = sootAlongMeanGas(comm_, case_, history);
     ResultsWriter results(comm_, folder.results(), info);
     HistoryWriter written(comm_, folder.history(), engineHistoryColumns(case_));
     written.row(history);
     written.writeTo(results);
     results.table("/repeats", summaryQuantities, summaries);
-    results.table("/cycles", summaryQuantities, cycles_);
+    results.table("/cycles", summaryQuantities, progress_.cycles);
     std::vector<Quantity> columns{{"angle", "deg", "crank angle"}, {"particle", "1", "number of the particle"}};
     for (const Quantity& quantity : engineParticleQuantities(case_)) columns.push_back(quantity);
-    results.table("/particles", columns, particles_);
+    results.table("/particles", columns, progress_.particles);
+    if (!soot.columns.empty()) results.table("/soot_along", soot.columns, soot.rows);
     results.close();
     if (rank_ != 0) return;
+    if (!soot.columns.empty()) writeFileAtomically(folder.file("soot.csv"), csvTable(soot.columns, soot.rows));
     const auto at = [&](const char* name) {
       const auto place = std::ranges::find(summaryQuantities, name, &Quantity::name) - summaryQuantities.begin();
       double mean = 0;
@@ -150,6 +189,8 @@ class PreparedEngine : public PreparedRun {
     JsonWriter json;
     json.beginObject();
     recordEngine(json, case_, summaries, isConverged);
+    for (std::size_t c = 1; c < soot.columns.size(); ++c)
+      json.field("final_" + soot.columns[c].name, soot.rows[soot.rows.size() - soot.columns.size() + c]);
     json.endObject();
     record.resultsJson = json.text();
     if (at("steps_too_large") > 0)
@@ -158,8 +199,9 @@ class PreparedEngine : public PreparedRun {
                        "step.halvings, or give a smaller step.angle",
                        at("steps_too_large"))});
     if (!isConverged)
-      printWarnings({fmt::format("after {} cycles the last two still differ by more than the section cycles says",
-                                 case_.mostCycles)});
+      printWarnings({fmt::format("after {} cycles the last two still differ by more than the section cycles says; {} particles may be "
+                                 "too few for it: take more (sample.particles) or larger tolerances",
+                                 case_.mostCycles, case_.particles)});
     fmt::print(
         "half of the heat at {:.4g} deg, 10 to 90 % in {:.3g} deg, {:.4g} bar at most, {:.3g} bar/deg, work {:.4g} J "
         "of {:.4g} J, energy balanced to {:.2g}\n",
@@ -171,7 +213,7 @@ class PreparedEngine : public PreparedRun {
   const Deck& deck_;
   int rank_ = 0, ranks_ = 1;
   EngineCase case_;
-  std::vector<double> particles_, cycles_;  // of rank 0, who has repeat 0
+  EngineProgress progress_;
 };
 
 }  // namespace

@@ -1,4 +1,7 @@
 #include "app/deck/gas_input.hpp"
+#include "app/deck/particles_deck.hpp"
+#include "app/deck/sample_deck.hpp"
+#include "app/deck/trees_deck.hpp"
 #include "app/problems/engine/engine_case.hpp"
 
 namespace lampblack::app {
@@ -203,6 +206,7 @@ void addNumerics(DeckSchema& schema) {
       .add(stringKey("output.species", "Species of the history, the particles and the emissions.")
                .list()
                .byDefault("[]"));
+  schema.add(checkpointKeys("more repeats").schema());
 }
 
 }  // namespace
@@ -216,6 +220,13 @@ DeckSchema engineSchema() {
   addCharge(schema);
   addProcesses(schema);
   addNumerics(schema);
+  addParticleKeys(schema,
+                  {.description = "Soot: a model whose scalars each particle of gas carries, or an ensemble, trees "
+                                  "or molecules along the mean gas, as which they leave it, and both "
+                                  "(particles.carried). The history then has all species.",
+                   .besideModel = true});
+  addRepeatKeys(schema);
+  addTreeRunKeys(schema);
   return schema;
 }
 

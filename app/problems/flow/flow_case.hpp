@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/deck/checkpoint_deck.hpp"
 #include "chemistry/mechanism/mechanism.hpp"
 #include "chemistry/thermo/mixture_fraction.hpp"
 #include "core/mesh.hpp"
@@ -126,10 +127,8 @@ struct OutputControl {
 };
 
 // When checkpoints are written besides when they are asked for.
-struct CheckpointControl {
+struct CheckpointControl : CheckpointTimes {
   std::optional<std::int64_t> steps;  // between two
-  double wallTime = 0.0;              // s, between two
-  bool atEnd = false;
 };
 
 struct TrajectoryRequest {

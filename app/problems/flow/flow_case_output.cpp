@@ -69,15 +69,11 @@ const std::vector<double>& streamNamed(const Deck& deck, const std::string& key,
                                     fmt::join(streams, ", ")));
 }
 
-DeckKeys<CheckpointControl> checkpointKeys() {
+DeckKeys<CheckpointControl> stepsBetweenCheckpoints() {
   DeckKeys<CheckpointControl> keys("checkpoint");
   keys.integer("steps", &CheckpointControl::steps, rules().optional().atLeast(1),
                "Time steps between two checkpoints, from which `lampblack run --restart` continues a run that was "
                "interrupted; absent: checkpoints by wall time and on request only.");
-  keys.quantity("wall_time", units::time, &CheckpointControl::wallTime, rules().byDefault("30 min").above(0),
-                "Wall time between two checkpoints.");
-  keys.boolean("at_end", &CheckpointControl::atEnd, rules().byDefault("false"),
-               "Write a checkpoint at the end of the run too, from which it can be continued to a later end.");
   return keys;
 }
 
@@ -140,7 +136,7 @@ void addOutputKeys(DeckSchema& schema) {
             "letter, digit, _, - or + becomes _; 'all': all but periodic ones. With each field output "
             "tables/wall_<name>.csv has friction, heat flux and y+ of each face of a wall without slip, "
             "tables/deposit_<name>.csv what each face of a wall that takes particles has taken.");
-  schema.add(keys.schema()).add(checkpointKeys().schema());
+  schema.add(keys.schema()).add(stepsBetweenCheckpoints().schema()).add(checkpointKeys("a later end").schema());
 }
 
 void readOutput(const Deck& deck, FlowCase& flowCase) {
@@ -157,7 +153,8 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
   readMixtureFraction(deck, flowCase);
   output.storage = {deck.integer<int>("output.compression"), deck.optionalInteger<int>("output.writers").value_or(0)};
   output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
-  flowCase.checkpoint = checkpointKeys().read(deck);
+  static_cast<CheckpointTimes&>(flowCase.checkpoint) = checkpointKeys("a later end").read(deck);
+  stepsBetweenCheckpoints().read(deck, flowCase.checkpoint, "checkpoint");
   OutputTables& tables = output.tables;
   tables.deck = deck;
   tables.quantities = deck.strings("output.quantities");

@@ -132,15 +132,6 @@ DeckKeys<PahCase> repeatKeys() {
   return keys;
 }
 
-DeckKeys<PahCase> checkpointKeys() {
-  DeckKeys<PahCase> keys("checkpoint");
-  keys.quantity("wall_time", units::time, &PahCase::checkpointInterval, rules().byDefault("30 min").above(0),
-                "Wall time between two checkpoints.");
-  keys.boolean("at_end", &PahCase::checkpointAtEnd, rules().byDefault("false"),
-               "Write a checkpoint at the end of the run too, from which it can go on to more repeats.");
-  return keys;
-}
-
 }  // namespace
 
 DeckSchema pahSchema() {
@@ -194,7 +185,7 @@ DeckSchema pahSchema() {
   keys.boolean(
       "output.closure", rules().byDefault("false").onlyWith("description", {"lattice"}),
       "Write closure.csv, the sites of all molecules at all rows and what is beside them, for 'description: sites'.");
-  keys.schema().add(checkpointKeys().schema());
+  keys.schema().add(checkpointKeys("more repeats").schema());
   return keys.schema();
 }
 
@@ -214,7 +205,7 @@ PahCase readPahCase(const Deck& deck) {
     }
   });
   repeatKeys().read(deck, pah, "");
-  checkpointKeys().read(deck, pah, "checkpoint");
+  pah.checkpoints = checkpointKeys("more repeats").read(deck);
   if (deck.choice("description") == "sites") {
     if (!deck.has("closure")) throw deck.error("description", "sites need the key 'closure', a table of neighbours");
     pah.closure = deck.at("closure", [&] {

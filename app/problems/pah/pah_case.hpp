@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/deck/checkpoint_deck.hpp"
 #include "core/modules.hpp"
 #include "io/deck.hpp"
 #include "particles/gas/gas_path.hpp"
@@ -27,9 +28,8 @@ struct PahCase {
   std::uint64_t repeats = 0, seed = 0;
   std::shared_ptr<const SiteClosure> closure = {};  // where sites are counted
   bool writesClosure = false;
-  std::size_t drawn = 0;          // molecules whose cells are written
-  double checkpointInterval = 0;  // of wall time, s
-  bool checkpointAtEnd = false;
+  std::size_t drawn = 0;  // molecules whose cells are written
+  CheckpointTimes checkpoints;
 
   [[nodiscard]] Molecule start() const { return Molecule(rings, fiveRings); }
   [[nodiscard]] double timeOf(std::size_t row) const { return path.points[recorded[row]].time; }

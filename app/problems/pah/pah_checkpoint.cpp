@@ -43,31 +43,15 @@ Fingerprint pahFingerprint(const PahCase& pah) {
           {"seed", fmt::format("{}", pah.seed)}};
 }
 
-std::filesystem::path savePahProgress(MPI_Comm comm, const CheckpointFolder& folder, const PahCase& pah,
-                                      const PahProgress& progress) {
+ArchiveOwners pahOwners(MPI_Comm comm, PahProgress& progress) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  collectively(comm, [&] {
-    if (rank == 0) folder.make();
-  });
-  const std::filesystem::path file = folder.checkpoint(static_cast<std::int64_t>(progress.done));
-  CheckpointWriter writer(comm, file, {}, pahFingerprint(pah));
-  PahProgress saved = progress;
-  saveOrLoad(writer, rank, saved);
-  writer.texts("outputs", {});
-  writer.finish();
-  collectively(comm, [&] {
-    if (rank == 0) folder.removeAllBut({file});
-  });
-  return file;
+  return [rank, &progress](StateArchive& archive) { saveOrLoad(archive, rank, progress); };
 }
 
 PahProgress loadPahProgress(MPI_Comm comm, const WholeCheckpoint& checkpoint, const PahCase& pah) {
-  int rank = 0;
-  MPI_Comm_rank(comm, &rank);
   PahProgress progress{0, GrowthSums(pah.recorded.size())};
-  CheckpointReader reader(comm, checkpoint.file, {}, pahFingerprint(pah));
-  saveOrLoad(reader, rank, progress);
+  loadProgress(comm, checkpoint, pahFingerprint(pah), pahOwners(comm, progress));
   if (progress.done > pah.repeats)
     throw InputError(fmt::format("{}: this checkpoint has {} molecules, more than 'repeats: {}'",
                                  checkpoint.file.string(), progress.done, pah.repeats));

@@ -4,12 +4,10 @@
 #include <mpi.h>
 
 #include <cstdint>
-#include <filesystem>
 
 #include "app/problems/pah/pah_case.hpp"
+#include "app/run/saved_progress.hpp"
 #include "core/modules.hpp"
-#include "io/checkpoint_file.hpp"
-#include "io/checkpoint_folder.hpp"
 #include "particles/pah/growth_sums.hpp"
 
 namespace lampblack::app {
@@ -23,9 +21,8 @@ struct PahProgress {
 // What decides what the sums of a checkpoint mean. How many repeats there are to be does not.
 Fingerprint pahFingerprint(const PahCase& pah);
 
-// Collective. Writes a checkpoint and removes the former one. Returns its name.
-std::filesystem::path savePahProgress(MPI_Comm comm, const CheckpointFolder& folder, const PahCase& pah,
-                                      const PahProgress& progress);
+// What a checkpoint has of a progress, which has to live as long.
+ArchiveOwners pahOwners(MPI_Comm comm, PahProgress& progress);
 // Collective. InputError where it is of another run, or of more repeats than the case has.
 PahProgress loadPahProgress(MPI_Comm comm, const WholeCheckpoint& checkpoint, const PahCase& pah);
 

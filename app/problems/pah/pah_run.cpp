@@ -68,18 +68,13 @@ class PreparedPah : public PreparedRun {
   }
 
   void run(const RunOptions& options) override {
-    std::optional<WholeCheckpoint> restart;
+    const std::optional<WholeCheckpoint> restart = chosenCheckpoint(comm_, options);
     PahProgress progress{0, GrowthSums(case_.recorded.size())};
-    if (options.restart) {
-      restart =
-          options.restart->empty() ? newestCheckpoint(comm_, options.folder) : wholeCheckpoint(comm_, *options.restart);
-      progress = loadPahProgress(comm_, *restart, case_);
-    }
+    if (restart) progress = loadPahProgress(comm_, *restart, case_);
     recordedRun(comm_, deck_, options, case_.seed,
                 [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
                   if (restart) {
-                    record.restartedFrom = restart->file.string();
-                    printWarnings(restart->damaged);
+                    recordRestart(*restart, record);
                     if (rank_ == 0)
                       fmt::print("continues from {}, {} molecules\n", restart->file.string(), progress.done);
                   }
@@ -113,27 +108,26 @@ class PreparedPah : public PreparedRun {
 
   // Rounds of molecules, after each of which the run may stop or be saved.
   void growAll(const RunFolder& folder, PahProgress& progress) {
-    const CheckpointFolder checkpoints(folder.path());
-    watchForCheckpointSignal();
+    SavedProgress checkpoints(comm_, folder.path(), pahFingerprint(case_), case_.checkpoints.wallTime);
     Progress said(comm_, 0, static_cast<double>(case_.repeats), Progress::logInterval);
     auto round = static_cast<std::uint64_t>(ranks_);
-    double saved = MPI_Wtime();
     GrowthSums own = progress.sums;
+    const auto written = [&] {
+      progress.sums = own.ofAllRanks(comm_);
+      return checkpoints.save(static_cast<std::int64_t>(progress.done), pahOwners(comm_, progress));
+    };
     const auto save = [&] {
       said.finish();
-      progress.sums = own.ofAllRanks(comm_);
-      saved = MPI_Wtime();
-      return savePahProgress(comm_, checkpoints, case_, progress);
+      return written();
     };
     while (progress.done < case_.repeats) {
       const double begin = MPI_Wtime();
       const std::uint64_t end = std::min(progress.done + round, case_.repeats);
       GrowthSums ofRound(case_.recorded.size());
       collectively(comm_, [&] { growRound(progress.done, end, ofRound); });
-      int isDue = rank_ == 0 && (MPI_Wtime() - saved > case_.checkpointInterval || hasRequest(checkpoints)) ? 1 : 0;
+      int isDue = checkpoints.isDue();
       int isShort = rank_ == 0 && MPI_Wtime() - begin < leastRound ? 1 : 0;
       int isLong = rank_ == 0 && MPI_Wtime() - begin > longestRound ? 1 : 0;
-      if (takeCheckpointSignal()) isDue = 1;
       int others[] = {isDue, isShort, isLong};
       if (const int signal = agreedStopRequest(comm_, others); signal != 0) {
         const std::filesystem::path file = save();  // without the round, in which a molecule may have been cut off
@@ -147,13 +141,8 @@ class PreparedPah : public PreparedRun {
       if (others[0] != 0) (void)save();
     }
     said.finish();
+    if (case_.checkpoints.atEnd) (void)written();
     progress.sums = own.ofAllRanks(comm_);
-    if (case_.checkpointAtEnd) (void)savePahProgress(comm_, checkpoints, case_, progress);
-  }
-
-  [[nodiscard]] static bool hasRequest(const CheckpointFolder& checkpoints) {
-    std::error_code ignored;
-    return std::filesystem::remove(checkpoints.request(), ignored);
   }
 
   // Those of this rank, from the first to before the end.

@@ -118,7 +118,12 @@ void readVolume(const Deck& deck, ReactorCase& reactorCase) {
       return VolumeLaw::pressureRise(*reactorCase.mechanism, gas.temperature, gas.Y, rate, reactorCase.end);
     });
   }
-  if (law == "pressure_rise" || deck.choice("ignition.from") == "start") return;
+  if (deck.choice("ignition.from") == "start") return;
+  if (law == "pressure_rise") {
+    if (deck.isGiven("ignition.from"))
+      throw deck.error("ignition.from", "a rise of pressure has no end of compression; count delays from the start");
+    return;
+  }
   const double compressed = reactorCase.volume->smallestAt(reactorCase.end);
   // A volume that still falls at the end of the run, or never does, has no end of compression.
   if (compressed < reactorCase.end)

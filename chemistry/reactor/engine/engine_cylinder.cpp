@@ -25,6 +25,8 @@ EngineCylinder::EngineCylinder(MPI_Comm comm, const Mechanism& mechanism, const 
 
 void EngineCylinder::start(EngineGas gas, double time) {
   gas_ = std::move(gas);
+  gas_.scalars = carried_ != nullptr ? carried_->size() : 0;
+  gas_.carried.assign(gas_.count() * gas_.scalars, 0);
   ledger_ = {};
   time_ = time;
   size_ = options_.step;
@@ -36,7 +38,15 @@ void EngineCylinder::start(EngineGas gas, double time) {
   startTemperature_ = all.temperature;
   startVolume_ = all.volume;
   startEnergy_ = all.energy;
-  startElements_ = elementsOf(mechanism_, gas_);
+  startElements_ = allElements();
+  peaks_.begin(options_.step, time, gas_.pressure);
+  notePeak();
+}
+
+void EngineCylinder::notePeak() {
+  const EngineTotals all = totalsOf(thermo_, gas_);
+  const double R = gas_.pressure * all.volume / (all.mass * all.temperature);
+  peaks_.setGas(all.temperature, all.capacity / (all.capacity - all.mass * R), R);
 }
 
 void EngineCylinder::advanceTo(double time) {
@@ -60,6 +70,7 @@ void EngineCylinder::advanceTo(double time) {
     if (isLarge) ++ledger_.tooLarge;
     ledger_.largestDefect = std::max(ledger_.largestDefect, defect_);
     time_ = parts == 1 ? time : time_ + size;
+    if (peaks_.add(time_, gas_.pressure)) notePeak();
     size_ = std::min(options_.step, 2 * size_);
   }
 }
@@ -97,7 +108,7 @@ void EngineCylinder::step(double size, RandomStream& random) {
   compressTo(options_.volume(end));
 }
 
-// Injection, mixing, loss of heat, the second time in reverse: by how much the volume grows.
+// Injection, mixing, what the gas carries, loss of heat, the second time in reverse: by how much the volume grows.
 double EngineCylinder::others(double from, double size, bool isFirst, RandomStream& random) {
   const double before = volumeOf(thermo_, gas_), middle = from + 0.5 * size;
   const auto inject = [&] {
@@ -109,12 +120,17 @@ double EngineCylinder::others(double from, double size, bool isFirst, RandomStre
   const auto mix = [&] {
     if (options_.mixing != EngineMixingModel::none) mixing_.advance(size, options_.mixingTime.at(middle), random, gas_);
   };
+  const auto exchange = [&] {
+    if (carried_ != nullptr) ledger_.carriedEnthalpy += carried_->advance(size, gas_);
+  };
   if (isFirst) {
     inject();
     mix();
+    exchange();
   }
   ledger_.heat += loss_.advance(size, conductance(middle, size), options_.wallTemperature, random, gas_);
   if (!isFirst) {
+    exchange();
     mix();
     inject();
   }
@@ -155,12 +171,24 @@ double EngineCylinder::conductance(double time, double duration) const {
 
 double EngineCylinder::energyError() const {
   const EngineTotals all = totalsOf(thermo_, gas_);
-  const double lacks = all.energy - startEnergy_ + ledger_.work + ledger_.heat - ledger_.injectedEnthalpy;
+  const double lacks =
+      all.energy - startEnergy_ + ledger_.work + ledger_.heat + ledger_.carriedEnthalpy - ledger_.injectedEnthalpy;
   return std::abs(lacks) / (all.capacity * all.temperature);
 }
 
+std::vector<double> EngineCylinder::allElements() const {
+  std::vector<double> moles = elementsOf(mechanism_, gas_);
+  if (carried_ == nullptr) return moles;
+  const auto& unit = carried_->unitElements();
+  for (std::size_t i = 0; i < gas_.count(); ++i)
+    for (std::size_t s = 0; s < gas_.scalars; ++s)
+      for (std::size_t e = 0; e < moles.size(); ++e)
+        if (unit[s][e] != 0) moles[e] += gas_.mass[i] * gas_.amounts(i)[s] * unit[s][e] / mechanism_.atomicWeight(e);
+  return moles;
+}
+
 double EngineCylinder::elementError() const {
-  const std::vector<double> now = elementsOf(mechanism_, gas_);
+  const std::vector<double> now = allElements();
   std::vector<double> brought(now.size(), 0);
   if (injection_)
     for (std::size_t k = 0; k < gas_.species; ++k)

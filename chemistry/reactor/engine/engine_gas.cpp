@@ -14,6 +14,7 @@ void EngineGas::add(double particleMass, double particleTemperature, std::span<c
   mass.push_back(particleMass);
   temperature.push_back(particleTemperature);
   massFractions.insert(massFractions.end(), particleY.begin(), particleY.end());
+  carried.resize(carried.size() + scalars);
   firstStep.push_back(0);
   cost.push_back(1);
 }
@@ -27,6 +28,9 @@ void EngineGas::remove(std::size_t i) {
   std::copy_n(massFractions.begin() + static_cast<std::ptrdiff_t>(last * species), species,
               massFractions.begin() + static_cast<std::ptrdiff_t>(i * species));
   massFractions.resize(last * species);
+  std::copy_n(carried.begin() + static_cast<std::ptrdiff_t>(last * scalars), scalars,
+              carried.begin() + static_cast<std::ptrdiff_t>(i * scalars));
+  carried.resize(last * scalars);
 }
 
 EngineTotals totalsOf(const Thermo& thermo, const EngineGas& gas) {

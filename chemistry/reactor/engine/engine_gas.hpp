@@ -18,6 +18,8 @@ struct EngineGas {
   std::vector<double> mass;         // kg, a value a particle
   std::vector<double> temperature;  // K
   std::vector<double> massFractions;
+  std::size_t scalars = 0;        // that particles of gas carry (EngineCarried)
+  std::vector<double> carried;    // of each, an amount per kg of gas
   std::vector<double> firstStep;  // s, what the last reactions ask of the next; 0: nothing yet
   std::vector<double> cost;       // of the last reactions, as ConstantPressureReactor counts it
 
@@ -26,6 +28,11 @@ struct EngineGas {
   [[nodiscard]] std::span<const double> Y(std::size_t i) const {
     return std::span(massFractions).subspan(i * species, species);
   }
+  [[nodiscard]] std::span<double> amounts(std::size_t i) { return std::span(carried).subspan(i * scalars, scalars); }
+  [[nodiscard]] std::span<const double> amounts(std::size_t i) const {
+    return std::span(carried).subspan(i * scalars, scalars);
+  }
+  // Without anything carried.
   void add(double particleMass, double particleTemperature, std::span<const double> particleY);
   void remove(std::size_t i);  // the last takes its place
 };

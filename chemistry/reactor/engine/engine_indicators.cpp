@@ -36,20 +36,58 @@ std::vector<double> netHeatRelease(const EngineTrace& trace) {
   return released;
 }
 
-PressureRise steepestRise(const EngineTrace& trace) {
-  PressureRise most;
-  for (std::size_t k = 1; k < trace.angle.size(); ++k) {
-    const double rise = trace.pressure[k] - trace.pressure[k - 1];
-    most.perAngle = std::max(most.perAngle, rise / (trace.angle[k] - trace.angle[k - 1]));
-    most.perTime = std::max(most.perTime, rise / (trace.time[k] - trace.time[k - 1]));
-  }
-  return most;
+void EnginePeaks::begin(double window, double time, double pressure) {
+  *this = {};
+  window_ = window;
+  time_ = time;
+  pressure_ = pressure;
+  times_ = {time};
+  pressures_ = {pressure};
 }
 
-double ringingIntensity(const EngineTrace& trace) {
-  const auto at = static_cast<std::size_t>(std::ranges::max_element(trace.pressure) - trace.pressure.begin());
-  const double g = trace.gamma[at], swing = pulsation * steepestRise(trace).perTime;
-  return swing * swing / (2 * g * trace.pressure[at]) * std::sqrt(g * trace.gasConstant[at] * trace.temperature[at]);
+bool EnginePeaks::add(double time, double pressure) {
+  times_.push_back(time);
+  pressures_.push_back(pressure);
+  // The last point at or before the begin of the window becomes the first.
+  const double from = std::max(times_.front(), time - window_);
+  std::size_t first = 0;
+  while (times_[first + 1] <= from) ++first;
+  times_.erase(times_.begin(), times_.begin() + static_cast<std::ptrdiff_t>(first));
+  pressures_.erase(pressures_.begin(), pressures_.begin() + static_cast<std::ptrdiff_t>(first));
+  const double way = (from - times_[0]) / (times_[1] - times_[0]);
+  const double before = pressures_[0] + way * (pressures_[1] - pressures_[0]);
+  if (time - from > (1 - 1e-9) * window_) rise_ = std::max(rise_, (pressure - before) / (time - from));
+  if (!(pressure > pressure_)) return false;
+  pressure_ = pressure;
+  time_ = time;
+  return true;
+}
+
+void EnginePeaks::setGas(double temperature, double gamma, double gasConstant) {
+  temperature_ = temperature;
+  gamma_ = gamma;
+  gasConstant_ = gasConstant;
+}
+
+double EnginePeaks::ringing() const {
+  const double swing = pulsation * rise_;
+  return swing * swing / (2 * gamma_ * pressure_) * std::sqrt(gamma_ * gasConstant_ * temperature_);
+}
+
+std::vector<double> EnginePeaks::packed() const {
+  std::vector<double> all{window_, pressure_, time_, rise_, temperature_, gamma_, gasConstant_};
+  all.insert(all.end(), times_.begin(), times_.end());
+  all.insert(all.end(), pressures_.begin(), pressures_.end());
+  return all;
+}
+
+void EnginePeaks::unpack(const std::vector<double>& values) {
+  double* const members[] = {&window_, &pressure_, &time_, &rise_, &temperature_, &gamma_, &gasConstant_};
+  for (std::size_t k = 0; k < std::size(members); ++k) *members[k] = values.at(k);
+  const auto points = values.begin() + static_cast<std::ptrdiff_t>(std::size(members));
+  const auto half = points + (values.end() - points) / 2;
+  times_.assign(points, half);
+  pressures_.assign(half, values.end());
 }
 
 }  // namespace lampblack::chemistry

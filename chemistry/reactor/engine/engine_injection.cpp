@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -79,8 +80,13 @@ EngineInjection::Work EngineInjection::inject(double mass, EngineGas& gas) const
                     "(injection.dilution)",
                     error.what()));
   }
+  std::vector<double> amounts(gas.scalars, 0);
+  for (std::size_t p = 0; p < gas.count(); ++p)
+    for (std::size_t s = 0; s < gas.scalars; ++s)
+      amounts[s] += share * gas.mass[p] * gas.amounts(p)[s] / (mass + taken);
   for (double& m : gas.mass) m *= 1 - share;
   gas.add(mass + taken, T, Y);
+  std::ranges::copy(amounts, gas.amounts(gas.count() - 1).begin());
   while (gas.count() > options_.mostParticles && gas.count() > 2) mergeNearest(gas);
   done.growth = volumeOf(thermo_, gas) - before;
   return done;
@@ -108,6 +114,7 @@ void EngineInjection::mergeNearest(EngineGas& gas) const {
   const auto [i, j] = best;
   const double both = gas.mass[i] + gas.mass[j], part = gas.mass[j] / both;
   for (std::size_t k = 0; k < gas.species; ++k) gas.Y(i)[k] += part * (gas.Y(j)[k] - gas.Y(i)[k]);
+  for (std::size_t s = 0; s < gas.scalars; ++s) gas.amounts(i)[s] += part * (gas.amounts(j)[s] - gas.amounts(i)[s]);
   gas.temperature[i] =
       thermo_.temperatureFromEnthalpy(enthalpy[i] + part * (enthalpy[j] - enthalpy[i]), gas.Y(i), gas.temperature[i]);
   gas.mass[i] = both;

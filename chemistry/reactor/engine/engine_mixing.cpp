@@ -28,16 +28,19 @@ double EngineMixing::advance(double duration, double tau, RandomStream& random, 
 }
 
 void EngineMixing::exchange(double part, EngineGas& gas) {
-  mean_.assign(gas.species, 0);
+  mean_.assign(gas.species + gas.scalars, 0);
   double mass = 0, enthalpy = 0;
   for (std::size_t i = 0; i < gas.count(); ++i) {
     mass += gas.mass[i];
     enthalpy += gas.mass[i] * enthalpy_[i];
     for (std::size_t k = 0; k < gas.species; ++k) mean_[k] += gas.mass[i] * gas.Y(i)[k];
+    for (std::size_t s = 0; s < gas.scalars; ++s) mean_[gas.species + s] += gas.mass[i] * gas.amounts(i)[s];
   }
   for (std::size_t i = 0; i < gas.count(); ++i) {
     enthalpy_[i] += part * (enthalpy / mass - enthalpy_[i]);
     for (std::size_t k = 0; k < gas.species; ++k) gas.Y(i)[k] += part * (mean_[k] / mass - gas.Y(i)[k]);
+    for (std::size_t s = 0; s < gas.scalars; ++s)
+      gas.amounts(i)[s] += part * (mean_[gas.species + s] / mass - gas.amounts(i)[s]);
     isChanged_[i] = 1;
   }
 }
@@ -60,6 +63,7 @@ void EngineMixing::pairs(double events, RandomStream& random, EngineGas& gas) {
     };
     mix(enthalpy_[i], enthalpy_[j]);
     for (std::size_t k = 0; k < gas.species; ++k) mix(gas.Y(i)[k], gas.Y(j)[k]);
+    for (std::size_t s = 0; s < gas.scalars; ++s) mix(gas.amounts(i)[s], gas.amounts(j)[s]);
     isChanged_[i] = isChanged_[j] = 1;
   }
 }

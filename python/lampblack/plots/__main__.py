@@ -2,7 +2,7 @@
 cells also a film), history; of a reactor its history, ignition and sensitivities, and where it has tables of every particle
 micrographs, distributions and averages by size; of particles along a given gas their history, rates and sizes; of a population
 balance moments, errors and
-size distributions; of molecules their growth, mass spectrum and rings; of aggregates of spheres their shape and micrographs; of an engine its cycle, emissions and particles; of a one-dimensional flame its profiles, soot and sensitivities; of a study its
+size distributions; of molecules their growth, mass spectrum and rings; of aggregates of spheres their shape and micrographs; of an engine its cycle, emissions, soot and particles; of a one-dimensional flame its profiles, soot and sensitivities; of a study its
 runs compared, and errors against numbers of particles; of several one-dimensional flames one picture that compares them; of an analysis measurements and
 runs, indices, pairs of parameters, the objective, bands, fronts.
 

@@ -1,8 +1,10 @@
-"""Pictures of an engine: pressure and temperature, heat, emissions over the crank angle, and particles over equivalence ratio."""
+"""Pictures of an engine: pressure and temperature, heat, emissions, soot over the crank angle, and particles over equivalence ratio."""
 
 import numpy as np
 
 from .style import plt
+
+MOST_SPECIES = 12  # in a picture
 
 
 def plot_engine(results, pictures):
@@ -10,6 +12,8 @@ def plot_engine(results, pictures):
     _plot_cycle(columns, pictures)
     _plot_species(columns, pictures)
     _plot_scatter(results.file.get("particles"), pictures)
+    if "soot_along" in results.file:
+        _plot_soot(results.file["soot_along"], pictures)
 
 
 def _draw(axes, columns, names, factor=1.0):
@@ -44,6 +48,7 @@ def _plot_species(columns, pictures):
     if not names:
         pictures.skip("emissions", "no species were written ('output.species')")
         return
+    names = sorted(names, key=lambda one: -np.max(columns[one[0]]))[:MOST_SPECIES]
     figure, axes = plt.subplots(figsize=(6.4, 4.4))
     _draw(axes, columns, names, 1e6)
     axes.set_yscale("log")
@@ -69,3 +74,23 @@ def _plot_scatter(group, pictures):
     axes.set_ylabel("temperature, K")
     axes.legend(fontsize=7)
     pictures.save(figure, "scatter")
+
+
+def _plot_soot(group, pictures):
+    angle = group["angle"][()]
+    figure, panels = plt.subplots(1, 2, figsize=(9.6, 4.2), sharex=True)
+    for axes, name, label, least in ((panels[0], "volume_fraction", "volume fraction of soot", 1e-10), (panels[1], "number_density", "particles of soot, 1/m³", 1e8)):
+        for part, text in (("carried", "in the particles of gas"), ("along", "the same model along the mean gas"), ("population", "population along the mean gas")):
+            if f"{part}_{name}" not in group:
+                continue
+            mean = group[f"{part}_{name}"][()]
+            shown = mean > least
+            (line,) = axes.plot(angle[shown], mean[shown], label=text)
+            if f"{part}_{name}_error" in group:
+                error = 2 * group[f"{part}_{name}_error"][()][shown]
+                axes.fill_between(angle[shown], np.maximum(mean[shown] - error, least), mean[shown] + error, color=line.get_color(), alpha=0.25, lw=0)
+        axes.set_yscale("log")
+        axes.set_xlabel("crank angle, deg")
+        axes.set_ylabel(label)
+    panels[0].legend(fontsize=7)
+    pictures.save(figure, "soot")
