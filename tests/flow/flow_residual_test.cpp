@@ -231,6 +231,7 @@ TEST_F(ResidualOfChannel, OfTheSameGasIsThatOfAllAnew) {
     EXPECT_EQ(rates.momentum, anew.momentum);
     EXPECT_EQ(some.faces().density, all.faces().density);
     EXPECT_EQ(some.faces().enthalpy, all.faces().enthalpy);
+    EXPECT_TRUE(std::ranges::equal(some.faces().temperatureGradient(), all.faces().temperatureGradient()));
   };
   some.evaluate(state);
   all.evaluate(state);

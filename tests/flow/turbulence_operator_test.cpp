@@ -124,6 +124,21 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
   }
 }
 
+// All that an operator tells of a cell without walls.
+struct Listener {
+  static constexpr bool needsWallDistance = false, needsStrainGradient = false;
+  [[nodiscard]] std::string name() const { return "listener"; }
+  [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return {{"a", "1", ""}, {"b", "1", ""}}; }
+  [[nodiscard]] std::array<double, 2> freeStream(const FreeStream& stream) const { return {stream.energy, 3.0}; }
+  [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
+    const double a = cell.values[0], b = cell.values[1];
+    return {.eddyViscosity = cell.viscosity * b,
+            .diffusivity = {cell.viscosity, cell.densityGradient[0]},
+            .source = {cell.strain + cell.viscosity, cell.vorticity * b + cell.densityGradient[1]},
+            .sink = {a * a, b}};
+  }
+};
+
 // What was found is kept while all that it is of stays, and no longer.
 TEST(Turbulence, WhatIsAskedAgainIsOfWhatThereIsNow) {
   Gas& gas = Gas::hydrogen();
@@ -133,7 +148,7 @@ TEST(Turbulence, WhatIsAskedAgainIsOfWhatThereIsNow) {
           {side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true), side(BoundaryKind::Wall, 1, false),
            side(BoundaryKind::Wall, 1, true)},
           gas);
-  const auto model = std::make_shared<PointwiseModel<Probe>>();
+  const auto model = std::make_shared<PointwiseModel<Listener>>();
   State state = box.stateWith({TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
                               [&](const Vector3& x) {
                                 return Box::Local{{30.0 * x[0] * x[0], 90.0 * x[0] * x[1]}, 300.0, air};
