@@ -199,9 +199,10 @@ class PreparedEngine : public PreparedRun {
                        "step.halvings, or give a smaller step.angle",
                        at("steps_too_large"))});
     if (!isConverged)
-      printWarnings({fmt::format("after {} cycles the last two still differ by more than the section cycles says; {} particles may be "
-                                 "too few for it: take more (sample.particles) or larger tolerances",
-                                 case_.mostCycles, case_.particles)});
+      printWarnings({fmt::format(
+          "after {} cycles the last two still differ by more than the section cycles says; {} particles may be "
+          "too few for it: take more (sample.particles) or larger tolerances",
+          case_.mostCycles, case_.particles)});
     fmt::print(
         "half of the heat at {:.4g} deg, 10 to 90 % in {:.3g} deg, {:.4g} bar at most, {:.3g} bar/deg, work {:.4g} J "
         "of {:.4g} J, energy balanced to {:.2g}\n",
