@@ -10,9 +10,6 @@ namespace lampblack::flow {
 namespace {
 
 constexpr int restart = 40;
-// Of what elimination would couple beyond neighbours, the share that counts as the cell's own: all would keep sums over
-// cells, but may leave a cell without a pivot.
-constexpr double keptFill = 0.9;
 
 BlockSystem* systemOf(void* context) {
   return static_cast<BlockSystem*>(context);
@@ -131,7 +128,7 @@ void BlockSystem::factorise() {
       const float* answer = &inverse_[static_cast<std::size_t>(other.cell) * n * n];
       const double* all = &behind[static_cast<std::size_t>(other.cell) * n];
       for (std::size_t k = 0; k < n; ++k) {
-        const double goes = (1.0 - keptFill) * other.goes[k] + keptFill * all[k];
+        const double goes = (1.0 - keptFill_) * other.goes[k] + keptFill_ * all[k];
         for (std::size_t r = 0; r < n; ++r)
           factors[k * n + r] -= other.comes[r] * static_cast<double>(answer[k * n + r]) * goes;
       }
@@ -225,12 +222,15 @@ BlockSystem::Result BlockSystem::solve(std::span<const double> right, std::span<
   PetscInt iterations = 0;
   checkPetsc(KSPGetConvergedReason(solver_.get(), &reason));
   checkPetsc(KSPGetIterationNumber(solver_.get(), &iterations));
+  double left = 0.0, all = 0.0;
+  checkPetsc(KSPGetResidualNorm(solver_.get(), &left));
+  checkPetsc(VecNorm(rightSide_.get(), NORM_2, &all));
   {
     const PetscValues values(solution_.get());
     std::ranges::copy(values.get(), x.begin());
   }
   halo_.update(x.first(work_.size()), static_cast<int>(fields_));
-  return {static_cast<int>(iterations), reason > 0};
+  return {static_cast<int>(iterations), reason > 0, all > 0.0 ? left / all : 0.0};
 }
 
 }  // namespace lampblack::flow

@@ -42,10 +42,15 @@ class BlockSystem {
   void addInertia(int cell, double inertia);
   // Collective. What solve() needs of the system as it is. NumericsError where a block is singular.
   void factorise();
+  // Of what elimination would couple beyond neighbours, the share that factors count as the cell's own from then on.
+  // All would keep sums over cells, but may leave a cell next to no pivot.
+  [[nodiscard]] double keptFill() const { return keptFill_; }
+  void setKeptFill(double share) { keptFill_ = share; }
 
   struct Result {
     int iterations = 0;
     bool isConverged = false;
+    double reached = 0.0;  // of the right side, that is left
   };
   // Collective. `right`: fields a owned cell; `x`: fields a cell, the solution out (halo filled). Down to `reduction`
   // of the right side, each cell's counted over the mean of its diagonal.
@@ -65,6 +70,7 @@ class BlockSystem {
   const Mesh& mesh_;
   HaloExchange& halo_;
   std::size_t fields_;
+  double keptFill_ = 0.9;
   std::vector<double> blocks_;
   std::vector<float> inverse_;          // of what elimination leaves of the blocks
   std::vector<double> toLow_, toHigh_;  // coefficients, fields an interior face

@@ -19,6 +19,9 @@ constexpr double mostOfFraction = 0.1;  // mass fraction of any species
 constexpr double leastOfTrace = 0.1;    // of itself, of a trace, that is left
 constexpr double gasReduction = 0.01;   // of the linear system's residual
 constexpr int mostGasIterations = 60;
+// Where so much is left of it after these, its factors lead nowhere: the next keep less of their fill, that share of
+// it.
+constexpr double leadsNowhere = 0.2, keepsLess = 0.5;
 // The same where the load is an unknown, which is a ratio of what two systems give.
 constexpr double loadedReduction = 0.02;
 constexpr double smallRise = 1e-4;  // of the load, for differences
@@ -200,13 +203,22 @@ double GasUpdate::addLoad(const State& state, const LoadAsUnknown& load) {
   return change;
 }
 
+void GasUpdate::saveOrLoad(StateArchive& archive) {
+  double share = system_.keptFill();
+  archive.shared("steady_kept_fill", share);
+  system_.setKeptFill(share);
+}
+
 GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
                                      const std::optional<LoadAsUnknown>& load) {
   prepare(state, residual, inertia);
-  const int iterations = solve(right_, change_, load ? loadedReduction : gasReduction, mostGasIterations);
+  const BlockSystem::Result solved = solve(right_, change_, load ? loadedReduction : gasReduction, mostGasIterations);
+  const bool isSolved = solved.reached <= leadsNowhere;
+  if (!isSolved) system_.setKeptFill(keepsLess * system_.keptFill());
   const double loadChange = load ? addLoad(state, *load) : 0.0;
   Result result = take(state, change_);
-  result.iterations = iterations;
+  result.iterations = solved.iterations;
+  result.isSolved = isSolved;
   result.loadChange = loadChange;
   return result;
 }

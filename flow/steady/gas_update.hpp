@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/modules.hpp"
+#include "core/state_archive.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/operator.hpp"
@@ -47,6 +48,7 @@ class GasUpdate {
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose change was limited
     double loadChange = 0.0;   // that the control asks for, within its limits
+    bool isSolved = true;      // the linear system was, if not as far as it should be
   };
   // Collective. The residual is of the state; `inertia` (kg/s, owned cells): mass over the cell's pseudo-time. The
   // state has a new gas of the same pressure then, halo filled; what is carried keeps its amount per mass.
@@ -58,11 +60,15 @@ class GasUpdate {
   Result advance(State& state, const FlowResidual& residual, std::span<const double> inertia,
                  const std::optional<LoadAsUnknown>& load = {});
 
+  // What the factors of the linear system keep. Collective.
+  void saveOrLoad(StateArchive& archive);
+
   // The parts of advance(). Collective: the linear system of a state,
   void prepare(const State& state, const FlowResidual& residual, std::span<const double> inertia);
   // its solution for any right side, which findLeft() gives of a cell; `change`: of all cells,
-  int solve(std::span<const double> right, std::span<double> change, double reduction, int mostIterations) {
-    return system_.solve(right, change, reduction, mostIterations).iterations;
+  BlockSystem::Result solve(std::span<const double> right, std::span<double> change, double reduction,
+                            int mostIterations) {
+    return system_.solve(right, change, reduction, mostIterations);
   }
   // kg/s and, of the temperature, over its unit: what is left of the equations of a cell; `right`: n + 1 numbers.
   void findLeft(const State& state, const FlowResidual& residual, std::size_t cell, double* right);

@@ -88,6 +88,7 @@ void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   count("steady_newton_waits", waits_);
   count("steady_newton_pause", pause_);
   mixing_.clear();
+  gas_.saveOrLoad(archive);
   flow_.saveOrLoad(archive);
   if (!archive.loading()) return;
   residual_.evaluate(state);
@@ -229,7 +230,8 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
       outcome.flowIterations += flow.iterations;
       outcome.pressureIterations += flow.pressureIterations;
     }
-    if (mayAccelerate && last < options_.accelerated && outcome.limited == 0)
+    // One that moves next to nothing because its system was not solved would hold all combinations where it is.
+    if (mayAccelerate && last < options_.accelerated && outcome.limited == 0 && gas.isSolved)
       accelerate(state);
     else
       mixing_.clear();

@@ -102,6 +102,30 @@ TEST(BlockSystems, TakeFewIterationsInAPlane) {
   }
 }
 
+// Where iterations do not suffice, how much of the right side is left, each cell's over its diagonal; factors that keep
+// none of their fill lead to the same solution, more slowly.
+TEST(BlockSystems, SayWhatIsLeftAndKeepAsMuchFillAsTold) {
+  BlockBox plane(16, 16, MPI_COMM_SELF);
+  const Mesh& mesh = plane.box->mesh;
+  BlockSystem system(mesh, plane.box->halo, blockFields);
+  const std::vector<double> right = fillSystem(mesh, system, 3.0);
+  std::vector<double> x(at(mesh.cells) * blockFields);
+  system.factorise();
+  EXPECT_EQ(system.solve(std::vector<double>(right.size(), 0.0), x, 1e-6, 200).reached, 0.0);
+  const double after1 = system.solve(right, x, 1e-10, 1).reached, after4 = system.solve(right, x, 1e-10, 4).reached;
+  EXPECT_GT(after1, 0.01);
+  EXPECT_LT(after1, 1.0);
+  EXPECT_LT(after4, 0.5 * after1);
+  const int withFill = system.solve(right, x, 1e-8, 200).iterations;
+  EXPECT_LE(system.solve(right, x, 1e-8, 200).reached, 1e-8);
+  const std::vector<double> first = x;
+  system.setKeptFill(0.0);
+  EXPECT_EQ(system.keptFill(), 0.0);
+  system.factorise();
+  EXPECT_GT(system.solve(right, x, 1e-8, 200).iterations, withFill);
+  for (std::size_t i = 0; i < right.size(); ++i) EXPECT_NEAR(x[i], first[i], 1e-5);
+}
+
 TEST(BlockSystems, KnowTheInverseOfABlock) {
   BlockBox line(1, 3, MPI_COMM_SELF);
   BlockSystem system(line.box->mesh, line.box->halo, 2);
