@@ -13,7 +13,8 @@ struct CheckpointTimes {
   bool atEnd = false;
 };
 
-// checkpoint.wall_time, checkpoint.at_end. `more`: what a run may go on to from a checkpoint at its end, "more repeats".
+// checkpoint.wall_time, checkpoint.at_end. `more`: what a run may go on to from a checkpoint at its end, "more
+// repeats".
 [[nodiscard]] DeckKeys<CheckpointTimes> checkpointKeys(const std::string& more);
 
 }  // namespace lampblack::app

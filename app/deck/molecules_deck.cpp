@@ -67,20 +67,21 @@ DeckKeys<MoleculeOptions> collisionKeys() {
   keys.number("condensation_efficiency", &Options::condensationEfficiency,
               rules().byDefault("1").atLeast(0).atMost(1).onlyWith(section + ".inception", {"pairs"}),
               "Factor of the collisions of molecules of the gas with particles, besides what sticks.");
-  keys.choice("sticks", sticking(&MoleculeSticking::rule),
-              {{"always", Rule::always},
-               {"smaller", Rule::smaller},
-               {"larger", Rule::larger},
-               {"together", Rule::together},
-               {"reduced", Rule::reduced},
-               {"by_size", Rule::bySize},
-               {"by_table", Rule::byTable}},
-              rules().byDefault("always"),
-              "Which molecules stick to each other and to particles, of which the largest molecule counts: all; where "
-              "the smaller one, the larger one, both together, or the product over the sum of both has sticking_rings; "
-              "by_size: with the probability 1/(1 + exp(-A (d^3/m + (m/B)^6 - C))) of the smaller one, d in Angstrom, "
-              "m = 12 times its carbon atoms; by_table: with that of sticking_table at the temperature and the smaller one's "
-              "carbon atoms. Particles of several molecules always stick to each other.");
+  keys.choice(
+      "sticks", sticking(&MoleculeSticking::rule),
+      {{"always", Rule::always},
+       {"smaller", Rule::smaller},
+       {"larger", Rule::larger},
+       {"together", Rule::together},
+       {"reduced", Rule::reduced},
+       {"by_size", Rule::bySize},
+       {"by_table", Rule::byTable}},
+      rules().byDefault("always"),
+      "Which molecules stick to each other and to particles, of which the largest molecule counts: all; where "
+      "the smaller one, the larger one, both together, or the product over the sum of both has sticking_rings; "
+      "by_size: with the probability 1/(1 + exp(-A (d^3/m + (m/B)^6 - C))) of the smaller one, d in Angstrom, "
+      "m = 12 times its carbon atoms; by_table: with that of sticking_table at the temperature and the smaller one's "
+      "carbon atoms. Particles of several molecules always stick to each other.");
   keys.number(
       "sticking_rings", sticking(&MoleculeSticking::rings),
       rules().byDefault("0").atLeast(0).onlyWith(section + ".sticks", {"smaller", "larger", "together", "reduced"}),
