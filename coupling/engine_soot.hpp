@@ -29,7 +29,7 @@ class EngineSoot final : public EngineCarried {
   // Of one particle of gas, to a row: the factor of its mass, temperature, enthalpy given (J/kg of the gas before),
   // mass fractions, amounts. False where nothing changes.
   bool advanceOne(double duration, const EngineGas& gas, std::size_t i, std::span<double> row);
-  // What a model's numerical Jacobian leaves of the elements, about 1e-7 of what was exchanged, goes to the exchanged
+  // What a model's numerical Jacobian leaves of the elements goes to the exchanged
   // species: the change that is least over the concentrations. `before`: densities, then concentrations.
   void keepElements(std::span<const double> before);
 

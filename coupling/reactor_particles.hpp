@@ -18,6 +18,7 @@ namespace lampblack::coupling {
 
 // Of the gas as particles see it: from transport data; or that of air (viscosityOfAir), for mechanisms without.
 enum class GasViscosity { transport, air };
+
 // The gas of a reactor at a state of it: all concentrations, and those that particles see.
 class ReactorGas {
  public:

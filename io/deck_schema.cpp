@@ -223,7 +223,10 @@ DeckSchema& DeckSchema::section(std::string path, Presence presence, std::string
 DeckSchema& DeckSchema::add(const DeckSchema& other) {
   for (const DeckKey& key : other.keys_) add(key);
   for (const DeckSection& part : other.sections_) section(part.path, part.presence, part.doc, part.conditions);
-  if (!other.former_.table.empty()) former_ = other.former_;
+  if (!other.former_.table.empty()) {
+    if (!former_.table.empty()) throw std::logic_error("two parts of a deck's keys have former sections");
+    former_ = other.former_;
+  }
   return *this;
 }
 

@@ -9,7 +9,8 @@ namespace lampblack::numerics {
 struct FittedLine {
   double slope = 0, slopeError = 0;  // and its standard error; NaN of two points, which leave nothing to judge it by
 };
-// Of log(y) over log(x); NaN where fewer than two y are positive. Points with y = 0 are left out.
+// Of log(y) over log(x). Points with x or y not positive, or y not finite, are left out; NaN where fewer than two, or
+// only one x, are left.
 FittedLine fitPowerLaw(std::span<const double> x, std::span<const double> y);
 
 }  // namespace lampblack::numerics

@@ -153,7 +153,18 @@ NucleationOptions readFormation(const Deck& deck) {
     NucleationOptions formation;
     formation.source = NucleationOptions::Source::table;
     formation.times = std::move(table.points);
-    for (const double rate : table.values) formation.rates.push_back(std::max(rate, 0.0) * constants::avogadro);
+    // Straight between the points, none where that is below zero.
+    const std::vector<double>&times = formation.times, &values = table.values;
+    std::vector<double> all;
+    for (std::size_t k = 0; k < times.size(); ++k) {
+      if (k > 0 && values[k - 1] * values[k] < 0) {
+        all.push_back(times[k - 1] + (times[k] - times[k - 1]) * values[k - 1] / (values[k - 1] - values[k]));
+        formation.rates.push_back(0);
+      }
+      all.push_back(times[k]);
+      formation.rates.push_back(std::max(values[k], 0.0) * constants::avogadro);
+    }
+    formation.times = std::move(all);
     return formation;
   });
 }
@@ -207,6 +218,11 @@ DeckKeys<MoleculeOptions> moleculeKeys() {
               "Processes of molecules that take place; absent: all. Their names are those of docs/theory/pah.md.");
   keys.quantity("at_start", units::perVolume, &MoleculeOptions::atStart, rules().byDefault("0 1/m^3").atLeast(0),
                 "Particles of one molecule that are there at the start.");
+  keys.text(
+      "band_gap", rules().optional(),
+      "Table of two columns: carbon atoms of a molecule, and its optical band gap in eV, \"carbon, band_gap\"; "
+      "straight in between, as at its ends beyond. Particles have that of their largest molecule, a column of the "
+      "results. None is shipped. Relative to the deck.");
   keys.schema().add(collisionKeys().schema());
   addPahRateKeys(keys.schema(), section + ".rates");
   return keys;
@@ -238,6 +254,9 @@ MoleculeOptions readMoleculeOptions(const Deck& deck, const Mechanism& mechanism
                                                    "set particles.coagulation");
   if (o.inception == Inception::byFormation) o.formation = readFormation(deck);
   if (!deck.boolean("particles.condensation") && o.inception == Inception::pairs) o.condensationEfficiency = 0;
+  if (!deck.boolean("particles.inception") && o.inception != Inception::pairs)
+    throw deck.error("particles.inception", "is false, so that 'inception: " + how +
+                                                "' of molecules would do nothing; leave one of the two out");
   if (!deck.boolean("particles.inception")) o.inception = Inception::none;
   if (o.sticking.rule == MoleculeSticking::Rule::bySize) readConstants(deck, o.sticking);
   if (o.sticking.rule == MoleculeSticking::Rule::byTable) {

@@ -47,7 +47,7 @@ void addDescription(DeckSchema& schema, const ParticlePlace& place, const std::v
                .byDefault("soot"));
   if (!place.besideModel) return;
   schema.add(choiceKey(carriedKey, names,
-                       "Model of soot that the flame carries beside an ensemble or trees, as it is solved with, from "
+                       "Model of soot that the gas carries beside an ensemble or trees, as it is solved with, from "
                        "the names of the key description.")
                  .byDefault("none")
                  .formerly("two_equation", "two_equation_dimer")

@@ -83,9 +83,10 @@ bool isAlong(const Deck& deck) {
   return deck.choice("problem") == "prescribed_gas";
 }
 
-// Where particles ride along paths, without tables and classes, in the gas's own viscosity.
-bool isFlame(const Deck& deck) {
-  return deck.choice("problem") == "flame1d";
+// Where particles are along paths of a gas, without tables and classes, in the gas's own viscosity.
+bool hasNoTables(const Deck& deck) {
+  const std::string problem = deck.choice("problem");
+  return problem == "flame1d" || problem == "engine";
 }
 
 bool isPlugFlow(const Deck& deck) {
@@ -284,7 +285,7 @@ PopulationRun readPopulationRun(const Deck& deck, bool isSoot, std::size_t parti
   PopulationRun run;
   run.repeats = deck.integer<std::size_t>("particles.repeats");
   run.bins = readSizeBins(deck, "particles");
-  if (isFlame(deck)) return run;
+  if (hasNoTables(deck)) return run;
   const bool isAir = isAlong(deck)
                          ? deck.optionalString("gas.viscosity").value_or(isSoot ? "transport" : "air") == "air"
                          : deck.choice("particles.viscosity") == "air";

@@ -214,7 +214,7 @@ GasUpdate::Result GasUpdate::advance(State& state, const FlowResidual& residual,
   prepare(state, residual, inertia);
   const BlockSystem::Result solved = solve(right_, change_, load ? loadedReduction : gasReduction, mostGasIterations);
   const bool isSolved = solved.reached <= leadsNowhere;
-  if (!isSolved) system_.setKeptFill(keepsLess * system_.keptFill());
+  if (solved.reached > leadsNowhere) system_.setKeptFill(keepsLess * system_.keptFill());
   const double loadChange = load ? addLoad(state, *load) : 0.0;
   Result result = take(state, change_);
   result.iterations = solved.iterations;

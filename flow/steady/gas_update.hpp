@@ -48,7 +48,7 @@ class GasUpdate {
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose change was limited
     double loadChange = 0.0;   // that the control asks for, within its limits
-    bool isSolved = true;      // the linear system was, if not as far as it should be
+    bool isSolved = true;      // no more than a fifth of the linear system's right side is left
   };
   // Collective. The residual is of the state; `inertia` (kg/s, owned cells): mass over the cell's pseudo-time. The
   // state has a new gas of the same pressure then, halo filled; what is carried keeps its amount per mass.

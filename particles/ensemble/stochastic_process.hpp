@@ -255,8 +255,9 @@ void StochasticProcess<Method>::jump(const SootMedium& medium, double dt, double
   };
   if constexpr (drawsPairs) {
     // Births between two halves of the collisions, several times where they are several: few collisions are left for
-    // the splitting to reorder.
-    const double births = std::ceil(inception * dt / method_.nucleusWeight());
+    // the splitting to reorder. A nucleus' weight is often such that a whole number is expected, up to round-off, which
+    // may not decide.
+    const double births = std::ceil(inception * dt / method_.nucleusWeight() - 0.01);
     const int times = kernel_ && births > 1 ? static_cast<int>(std::min(births, mostBirthsOfJump)) : 1;
     const double part = dt / times;
     if (kernel_) method_.coagulate(0.5 * part, random_);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "chemistry/mechanism/known_species.hpp"
@@ -173,8 +174,10 @@ double MoleculeEnsemble::functional(std::size_t which, const double* row) const 
       return fixed.molecules;
     case ringsOf:
       return fixed.rings / fixed.molecules;
-    default:
+    case bandGapOf:
       return options_.bandGap(fixed.mostCarbon);
+    default:
+      throw std::logic_error("particles of molecules have no such functional");
   }
 }
 

@@ -52,6 +52,11 @@ void requireMolecules(const MoleculeOptions& o) {
     for (const auto* points : {&s.temperatures, &s.carbons})
       require(std::ranges::is_sorted(*points, std::less_equal{}), "the points of a table of sticking have to rise");
   }
+  require(o.bandGaps.size() == o.bandGapCarbons.size() && std::ranges::is_sorted(o.bandGapCarbons, std::less_equal{}),
+          "band gaps need as many numbers of carbon atoms, which have to rise");
+  require(
+      o.inception != MoleculeOptions::Inception::byFormation || o.formation.source == NucleationOptions::Source::table,
+      "molecules by formation need a table of the rate at which they are formed");
   require(o.particles >= 8, "at least 8 numerical particles are needed");
   require(o.splitTolerance > 0 && o.splitTolerance <= 1 && o.fullAt > 0,
           "the split tolerance needs to be in (0, 1], the number density of a full sample positive");

@@ -64,6 +64,7 @@ class SootMedium {
   [[nodiscard]] bool ofMonomers() const { return monomers_ > 0; }
   // Dimers (1/m3) in steady state, `collisions` being the sum of collision() per m3.
   [[nodiscard]] double dimers(double collisions) const;
+  [[nodiscard]] double breaking() const { return breaking_; }  // 1/s, at which dimers come apart
   // Nuclei per m3 and s.
   [[nodiscard]] double inception(double collisions) const {
     const double n = dimers(collisions);

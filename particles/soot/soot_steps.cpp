@@ -45,7 +45,8 @@ double sootStep(const SootPopulationLaw& law, const SootMedium& medium, const So
   const SootFluxes flux = medium.fluxes();
   if (medium.incepting() && medium.condensing() && !medium.ofMonomers()) {
     const double rate = medium.inception(s.collisions);
-    const double scale = s.collisions + 2 * std::sqrt(medium.dimer().rate * medium.dimer().selfCollision);
+    const double scale =
+        s.collisions + medium.breaking() + 2 * std::sqrt(medium.dimer().rate * medium.dimer().selfCollision);
     fastest = std::max(fastest, rate * medium.collision(sootNucleus(medium, law.soot.sootDensity)) / scale);
   }
   if (s.number > 0) {

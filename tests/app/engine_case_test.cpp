@@ -93,6 +93,15 @@ TEST(EngineCase, RepeatsHaveMeansAndIntervals) {
   EXPECT_EQ(engineMeans(std::span(repeats).first(2), 2, 1), (std::vector<double>{1, 10}));
 }
 
+TEST(EngineCase, SootOfAnyKindFollowsTheMeanGas) {
+  const std::vector<std::string> ethylene{"mechanism=ethylene_abf2000_101.yaml"};
+  const std::string soot = "charge: {temperature: 400 K, pressure: 1 bar, composition: N2}\nparticles: {description: ";
+  for (const char* kind : {"ensemble", "trees", "molecules"})
+    EXPECT_TRUE(readEngine(soot + kind + "}\n", ethylene).population.has_value()) << kind;
+  EXPECT_THAT(refusedEngine(soot + "ensemble}\noutput: {species: [OH]}\n", ethylene), HasSubstr("all species"));
+  EXPECT_THAT(refusedEngine(soot + "ensemble, bins: 40}\n", ethylene), HasSubstr("no size distributions"));
+}
+
 TEST(EngineCase, SaysWhatIsWrong) {
   const std::string whole = engineCharge1 + "}\n";
   EXPECT_THAT(refusedEngine(whole, {"engine.rod=4 cm"}), HasSubstr("longer than half of the stroke"));

@@ -30,7 +30,7 @@ MISTAKES = [
     ("fuel that does not burn", (HYDROGEN, "--T", "1500", "--fuel", "AR:1", "--oxidizer", AIR, "--phi", "1"),
      ("the fuel needs no oxygen",)),
     ("unknown species", (HYDROGEN, "--T", "1500", "--X", "H2:1, O22:1"), ("--X", "unknown species 'O22'", "'O2'")),
-    ("composition without amounts", (HYDROGEN, "--T", "1500", "--X", "H2"), ("--X", "expected ':'")),
+    ("composition without amounts", (HYDROGEN, "--T", "1500", "--X", "H2, O2"), ("--X", "expected ':'")),
     ("wrong unit", (HYDROGEN, "--T", "1500 Pa", "--X", AIR), ("--T", "expected a temperature", "a pressure")),
     ("cold", (HYDROGEN, "--T", "-5", "--X", AIR), ("--T", "temperature above zero", "'-5'")),
     ("colder than the data", (METHANE, "--T", "150", "--X", AIR), ("--T: expected a temperature from 200 to 6000 K", "150")),

@@ -195,6 +195,15 @@ void readSoot(const Deck& deck, EngineCase& made) {
   }
   if (hasPopulation(deck)) made.population = readPopulation(deck, made.mechanism);
   if (!made.soot && !made.population) return;
+  if (deck.isGiven("output.species"))
+    throw deck.error(
+        "output.species",
+        "with 'particles' the history has all species, which soot along the mean gas sees; leave this key out");
+  for (const char* key : {"particles.bins", "particles.smallest", "particles.largest"})
+    if (deck.isGiven(key))
+      throw deck.error(key,
+                       "an engine writes no size distributions; leave this key out, or follow its history.csv by "
+                       "'problem: prescribed_gas'");
   // Soot along the mean gas sees what the history tells.
   made.species.clear();
   for (std::size_t k = 0; k < mechanism.numSpecies(); ++k) made.species.push_back(k);

@@ -137,7 +137,6 @@ TEST_F(BurntTrees, NecksOfShrinkingPrimariesKeepTheirLevels) {
   expectTree(type, tree);
 }
 
-}  // namespace
 // Who tells which primaries have other units gets the same to the last bit.
 TEST_F(BurntTrees, AreRoundedAlikeByThoseThatChanged) {
   for (const double factor : {1.1, 0.9}) {
@@ -166,4 +165,5 @@ TEST_F(BurntTrees, AreRoundedAlikeByThoseThatChanged) {
   }
 }
 
+}  // namespace
 }  // namespace lampblack::test
