@@ -3,6 +3,7 @@
 // saved and what is loaded cannot differ. Everything is collective, in the same order on all ranks.
 #pragma once
 
+#include <concepts>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,6 +33,13 @@ class StateArchive {
     std::vector<double> values{value};
     shared(name, values);
     value = values.at(0);
+  }
+  // Counts and flags, below 2^53.
+  template <std::integral Number>
+  void shared(const std::string& name, Number& number) {
+    auto value = static_cast<double>(number);
+    shared(name, value);
+    number = static_cast<Number>(value);
   }
 
  protected:

@@ -33,18 +33,19 @@ EngineSoot::EngineSoot(MPI_Comm comm, const Mechanism& mechanism, const Thermo& 
 
 void EngineSoot::keepElements(std::span<const double> before) {
   const std::size_t n = atoms_.size(), species = concentrations_.size();
-  std::vector<double> matrix(n * n, 0), excess(n, 0);
+  std::vector<double>&matrix = matrix_, &weight = weight_;
+  matrix.assign(n * n, 0);
+  weight.assign(n, 0);  // first what there is too much of
   for (std::size_t e = 0; e < n; ++e) {
     for (std::size_t s = 0; s < scalars_; ++s)
-      excess[e] += (densities_[s] - before[s]) * elements_[s][e] / atomicWeights_[e];
-    for (std::size_t k = 0; k < species; ++k) excess[e] += (concentrations_[k] - before[scalars_ + k]) * atoms_[e][k];
+      weight[e] += (densities_[s] - before[s]) * elements_[s][e] / atomicWeights_[e];
+    for (std::size_t k = 0; k < species; ++k) weight[e] += (concentrations_[k] - before[scalars_ + k]) * atoms_[e][k];
     for (std::size_t other = 0; other < n; ++other)
       for (std::size_t k = 0; k < species; ++k)
         matrix[e * n + other] += atoms_[e][k] * atoms_[other][k] * concentrations_[k] * concentrations_[k];
   }
   // Symmetric and not negative: elimination without exchange of rows, past elements that are in none of the species or
   // not by themselves.
-  std::vector<double> weight = excess;
   for (std::size_t e = 0; e < n; ++e) {
     double diagonal = 0;
     for (std::size_t k = 0; k < species; ++k) diagonal += std::pow(atoms_[e][k] * concentrations_[k], 2);
@@ -70,7 +71,7 @@ void EngineSoot::keepElements(std::span<const double> before) {
   }
 }
 
-bool EngineSoot::advanceOne(double duration, const EngineGas& gas, std::size_t i, std::span<double> row) {
+void EngineSoot::advanceOne(double duration, const EngineGas& gas, std::size_t i, std::span<double> row) {
   const std::span<const double> Y = gas.Y(i), amounts = gas.amounts(i);
   const std::vector<std::size_t>& exchanged = particles_.exchanged();
   const double T = gas.temperature[i], density = thermo_.density(T, gas.pressure, Y);
@@ -79,7 +80,7 @@ bool EngineSoot::advanceOne(double duration, const EngineGas& gas, std::size_t i
   concentrations_.clear();
   for (std::size_t k = 0; k < exchanged.size(); ++k) concentrations_.push_back(density * Y[exchanged[k]] / weights_[k]);
   const ParticleGas still{{T, gas.pressure, density, 0, thermo_.meanMolecularWeight(Y)}, concentrations_};
-  if (particles_.idle(still, densities_)) return false;
+  if (particles_.idle(still, densities_)) return;
 
   const CarrierGas around = seen_.atComposition(T, gas.pressure, Y);
   before_ = densities_;
@@ -110,7 +111,6 @@ bool EngineSoot::advanceOne(double duration, const EngineGas& gas, std::size_t i
   row[1] = 1 + gained;
   row[2] = thermo_.temperatureFromEnthalpy(enthalpy, newY, T);
   row[3] = given;
-  return true;
 }
 
 double EngineSoot::advance(double duration, EngineGas& gas) {
@@ -119,7 +119,7 @@ double EngineSoot::advance(double duration, EngineGas& gas) {
   const auto ranks = static_cast<std::size_t>(ranks_);
   collectively(comm_, [&] {
     for (auto i = static_cast<std::size_t>(rank_); i < gas.count(); i += ranks)
-      (void)advanceOne(duration, gas, i, std::span(rows_).subspan(i * width, width));
+      advanceOne(duration, gas, i, std::span(rows_).subspan(i * width, width));
   });
   // Each row is of one rank, and zero on the others.
   if (ranks_ > 1) MPI_Allreduce(MPI_IN_PLACE, rows_.data(), static_cast<int>(rows_.size()), MPI_DOUBLE, MPI_SUM, comm_);

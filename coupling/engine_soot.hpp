@@ -26,11 +26,11 @@ class EngineSoot final : public EngineCarried {
   double advance(double duration, EngineGas& gas) override;
 
  private:
-  // Of one particle of gas, to a row: the factor of its mass, temperature, enthalpy given (J/kg of the gas before),
-  // mass fractions, amounts. False where nothing changes.
-  bool advanceOne(double duration, const EngineGas& gas, std::size_t i, std::span<double> row);
-  // What a model's numerical Jacobian leaves of the elements goes to the exchanged
-  // species: the change that is least over the concentrations. `before`: densities, then concentrations.
+  // Of one particle of gas, to a row of zeros: one, the factor of its mass, temperature, enthalpy given (J/kg of the
+  // gas before), mass fractions, amounts. Left as it is where nothing changes.
+  void advanceOne(double duration, const EngineGas& gas, std::size_t i, std::span<double> row);
+  // What a model's numerical Jacobian leaves of the elements goes to the exchanged species: the change that is least
+  // over the concentrations. `before`: densities, then concentrations.
   void keepElements(std::span<const double> before);
 
   MPI_Comm comm_;
@@ -43,7 +43,7 @@ class EngineSoot final : public EngineCarried {
   std::vector<std::vector<double>> elements_;  // kg in a unit of each scalar
   std::vector<std::vector<double>> atoms_;     // of each element in the exchanged species
   std::vector<double> atomicWeights_;          // kg/mol
-  std::vector<double> before_, rows_, densities_, concentrations_, enthalpy_, slope_;
+  std::vector<double> before_, rows_, densities_, concentrations_, enthalpy_, slope_, matrix_, weight_;
 };
 
 }  // namespace lampblack::coupling

@@ -10,20 +10,14 @@
 #include "core/first_error.hpp"
 #include "flow/cell_errors.hpp"
 #include "flow/discretisation/face_fluxes.hpp"
+#include "flow/equations/matrix_rows.hpp"
 
 namespace lampblack::flow {
 
 Projection::Projection(const FlowContext& context, std::span<const BoundaryData> known, PressureAccuracy accuracy)
-    : context_(context), accuracy_(accuracy) {
+    : context_(context), accuracy_(accuracy), row_(matrixRows(context)) {
   const Mesh& m = context.mesh;
-  PetscInt first = 0;
   const PetscInt owned = m.owned;
-  MPI_Exscan(&owned, &first, 1, MPIU_INT, MPI_SUM, m.comm);
-  std::vector<double> row(m.cells);
-  for (int c = 0; c < m.owned; ++c) row[c] = static_cast<double>(first + c);
-  context.halo.update(row, 1);
-  for (double r : row) row_.push_back(static_cast<PetscInt>(r));
-
   checkPetsc(MatCreateAIJ(m.comm, owned, owned, PETSC_DETERMINE, PETSC_DETERMINE, Mesh::mostSides + 1, nullptr,
                           Mesh::mostSides, nullptr, matrix_.put()));
   checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));

@@ -5,6 +5,7 @@
 
 #include "core/errors.hpp"
 #include "core/petsc_callbacks.hpp"
+#include "flow/equations/matrix_rows.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -21,6 +22,7 @@ CoupledFlow::CoupledFlow(const FlowContext& context, const State& state, FlowRes
       d_(static_cast<std::size_t>(state.dimension)),
       velocities_(d_ + (state.swirls ? 1 : 0)),
       width_(velocities_ + 1),
+      row_(matrixRows(context)),
       slopes_(static_cast<std::size_t>(context.mesh.faceStart[context.mesh.owned])),
       flux_(static_cast<std::size_t>(context.mesh.faces)),
       steps_(2 * flux_.size() * velocities_),
@@ -35,15 +37,8 @@ CoupledFlow::CoupledFlow(const FlowContext& context, const State& state, FlowRes
   change_.velocity.resize(static_cast<std::size_t>(m.cells) * velocities_);
   change_.pressure.resize(static_cast<std::size_t>(m.cells));
   change_.massFlux.resize(flux_.size());
-  PetscInt first = 0;
-  const PetscInt owned = m.owned;
-  MPI_Exscan(&owned, &first, 1, MPIU_INT, MPI_SUM, m.comm);
   findSlopes();
-  std::vector<double> row(static_cast<std::size_t>(m.cells));
-  for (int c = 0; c < m.owned; ++c) row[static_cast<std::size_t>(c)] = static_cast<double>(first + c);
-  context.halo.update(row, 1);
-  for (const double r : row) row_.push_back(static_cast<PetscInt>(r));
-
+  const PetscInt owned = m.owned;
   const auto width = static_cast<PetscInt>(width_);
   checkPetsc(MatCreateBAIJ(m.comm, width, owned * width, owned * width, PETSC_DETERMINE, PETSC_DETERMINE,
                            Mesh::mostSides + 1, nullptr, Mesh::mostSides, nullptr, matrix_.put()));

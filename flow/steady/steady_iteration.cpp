@@ -73,20 +73,10 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
 void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   archive.shared("steady_courant", courant_);
   archive.cells("steady_haste", haste_, 1);
-  const auto either = [&](const char* name, bool& is) {
-    double value = is ? 1.0 : 0.0;
-    archive.shared(name, value);
-    is = value != 0.0;
-  };
-  either("steady_is_anew", isAnew_);
-  either("steady_is_limited", isLimited_);
-  const auto count = [&](const char* name, int& number) {
-    double value = number;
-    archive.shared(name, value);
-    number = static_cast<int>(value);
-  };
-  count("steady_newton_waits", waits_);
-  count("steady_newton_pause", pause_);
+  archive.shared("steady_is_anew", isAnew_);
+  archive.shared("steady_is_limited", isLimited_);
+  archive.shared("steady_newton_waits", waits_);
+  archive.shared("steady_newton_pause", pause_);
   mixing_.clear();
   gas_.saveOrLoad(archive);
   flow_.saveOrLoad(archive);

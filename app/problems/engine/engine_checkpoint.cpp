@@ -45,9 +45,7 @@ Fingerprint engineFingerprint(const Deck& deck, const EngineCase& made) {
 
 ArchiveOwners engineOwners(EngineProgress& progress) {
   return [&progress](StateArchive& archive) {
-    auto done = static_cast<double>(progress.done);
-    archive.shared("repeats_done", done);
-    progress.done = static_cast<std::uint64_t>(done);
+    archive.shared("repeats_done", progress.done);
     archive.shared("repeats", progress.repeats);
     archive.shared("first_particles", progress.particles);
     archive.shared("first_cycles", progress.cycles);

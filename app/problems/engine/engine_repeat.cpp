@@ -19,12 +19,6 @@ bool isAmong(double angle, const std::vector<double>& some) {
   return std::ranges::any_of(some, [angle](double a) { return std::abs(a - angle) < 1e-9; });
 }
 
-void saveOrLoadNumber(StateArchive& archive, const char* name, auto& number) {
-  auto value = static_cast<double>(number);
-  archive.shared(name, value);
-  number = static_cast<std::remove_reference_t<decltype(number)>>(value);
-}
-
 }  // namespace
 
 EngineCycles::EngineCycles(MPI_Comm comm, const EngineCase& made, std::uint64_t repeat)
@@ -85,10 +79,10 @@ void EngineCycles::endCycle() {
 }
 
 void EngineCycles::saveOrLoad(StateArchive& archive) {
-  saveOrLoadNumber(archive, "cycle", cycle_);
-  saveOrLoadNumber(archive, "stops", at_);
-  saveOrLoadNumber(archive, "is_done", isDone_);
-  saveOrLoadNumber(archive, "is_converged", done_.isConverged);
+  archive.shared("cycle", cycle_);
+  archive.shared("stops", at_);
+  archive.shared("is_done", isDone_);
+  archive.shared("is_converged", done_.isConverged);
   archive.shared("half_before", halfBefore_);
   archive.shared("temperature_before", temperatureBefore_);
   archive.shared("residual_temperature", left_.temperature);

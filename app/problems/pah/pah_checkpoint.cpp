@@ -16,9 +16,7 @@ std::string cellsText(const std::vector<LatticeCell>& cells) {
 
 // Both ways; all ranks learn how many are done.
 void saveOrLoad(StateArchive& archive, int rank, PahProgress& progress) {
-  auto done = static_cast<double>(progress.done);
-  archive.shared("repeats", done);
-  progress.done = static_cast<std::uint64_t>(done);
+  archive.shared("repeats", progress.done);
   progress.sums.saveOrLoad(archive, rank);
 }
 

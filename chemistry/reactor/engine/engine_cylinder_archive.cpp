@@ -1,24 +1,14 @@
 #include "chemistry/reactor/engine/engine_cylinder.hpp"
 
 namespace lampblack::chemistry {
-namespace {
-
-template <class Integer>
-void count(StateArchive& archive, const char* name, Integer& number) {
-  auto value = static_cast<double>(number);
-  archive.shared(name, value);
-  number = static_cast<Integer>(value);
-}
-
-}  // namespace
 
 void EngineCylinder::saveOrLoad(StateArchive& archive) {
-  count(archive, "species", gas_.species);
-  count(archive, "scalars", gas_.scalars);
-  count(archive, "attempts", attempts_);
-  count(archive, "steps", ledger_.steps);
-  count(archive, "rejected_steps", ledger_.rejected);
-  count(archive, "steps_too_large", ledger_.tooLarge);
+  archive.shared("species", gas_.species);
+  archive.shared("scalars", gas_.scalars);
+  archive.shared("attempts", attempts_);
+  archive.shared("steps", ledger_.steps);
+  archive.shared("rejected_steps", ledger_.rejected);
+  archive.shared("steps_too_large", ledger_.tooLarge);
   const std::pair<const char*, double*> numbers[] = {{"pressure", &gas_.pressure},
                                                      {"time", &time_},
                                                      {"growth_rate", &growthRate_},
