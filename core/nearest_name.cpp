@@ -4,8 +4,27 @@
 
 #include <algorithm>
 #include <cctype>
+#include <set>
+#include <utility>
 
 namespace lampblack {
+
+namespace {
+
+std::set<std::string> wordsOf(std::string_view name) {
+  std::set<std::string> words;
+  std::string word;
+  for (const char letter : std::string(name) + '_') {
+    if (letter != '_' && letter != '-') {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    } else if (!word.empty()) {
+      words.insert(std::exchange(word, {}));
+    }
+  }
+  return words;
+}
+
+}  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
   const auto same = [&](std::size_t i, std::size_t j) {
@@ -42,6 +61,23 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
     }
   }
   return best;
+}
+
+std::string nameOfSameWords(std::string_view name, const std::vector<std::string>& known) {
+  const auto tells = [](const std::set<std::string>& words) {
+    return std::ranges::any_of(words, [](const std::string& word) { return word.size() > 2; });
+  };
+  const std::set<std::string> words = wordsOf(name);
+  std::string found;
+  for (const std::string& candidate : known) {
+    const std::set<std::string> own = wordsOf(candidate);
+    const bool isWithin = tells(own) && std::ranges::includes(words, own);
+    const bool isAround = tells(words) && std::ranges::includes(own, words);
+    if (!isWithin && !isAround) continue;
+    if (!found.empty()) return {};
+    found = candidate;
+  }
+  return found;
 }
 
 std::string_view closestName(std::string_view name, std::span<const std::string_view> known) {

@@ -16,6 +16,10 @@ std::size_t editDistance(std::string_view a, std::string_view b);
 // short names). Empty when none is.
 std::string nearestName(std::string_view name, const std::vector<std::string>& known);
 
+// The one known name whose words ('_' and '-' part them) are all in `name`, or that has all words of `name`:
+// 'connecting_rod' and 'rod'. Empty when none or several have. Words of one or two letters alone do not count.
+std::string nameOfSameWords(std::string_view name, const std::vector<std::string>& known);
+
 // The nearest of the known names however far it is; empty only if none is known.
 std::string_view closestName(std::string_view name, std::span<const std::string_view> known);
 

@@ -70,8 +70,17 @@ class Checker {
     for (const auto& [other, key] :
          {Names("mole_fractions", "composition"), Names("X", "composition"), Names("Y", "mass_fractions"),
           Names("reactants", "composition"), Names("phi", "equivalence_ratio"), Names("T", "temperature"),
-          Names("p", "pressure"), Names("P", "pressure"), Names("composition", "mole_fractions")})
+          Names("p", "pressure"), Names("P", "pressure"), Names("composition", "mole_fractions"),
+          Names("gas", "charge")})
       if (name == other && std::ranges::find(here, key) != here.end()) return fmt::format("; did you mean '{}'?", key);
+    return {};
+  }
+
+  // Of a section that this kind of deck has not: where a key in it stands here ('end' of 'time' is 'gas.end').
+  std::string whereChildrenStand(const DeckNode& section) const {
+    for (const DeckNode& child : section.children)
+      for (const DeckKey& key : schema_.keys())
+        if (key.path.ends_with("." + child.name)) return fmt::format("; did you mean '{}'?", key.path);
     return {};
   }
 
@@ -95,6 +104,10 @@ class Checker {
         }
       }
     }
+    if (hint.empty() && node.kind == DeckNode::Kind::map) hint = whereChildrenStand(node);
+    if (hint.empty())
+      if (const std::string similar = nameOfSameWords(node.name, here); !similar.empty())
+        hint = fmt::format("; did you mean '{}'?", similar);
     return deckError(
         source_, node.nameAt, path,
         fmt::format("unknown key '{}'{} Known here: {}", node.name, hint.empty() ? "." : hint, fmt::join(here, ", ")));

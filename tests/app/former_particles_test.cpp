@@ -18,8 +18,10 @@
 namespace lampblack::app::former_particles {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 const std::string reactor = "problem: reactor\nmechanism: gas.yaml\nreactor: {type: constant_pressure}\n",
                   along = "problem: prescribed_gas\nmechanism: gas.yaml\ngas: {file: gas.csv}\n",
@@ -181,6 +183,8 @@ TEST(FormerParticles, MistakesAreFoundAndTellWhereTheKeysAre) {
   EXPECT_THAT(refusalOf(reactor + "soot: {model: hmmo}\n"), HasSubstr("did you mean 'hmom'?"));
   EXPECT_THAT(refusalOf(reactor + "particles: {material: soot}\n"),
               HasSubstr("particles.description: this key is missing"));
+  EXPECT_THAT(refusalOf(reactor + "particles: 50\n"),
+              AllOf(HasSubstr("particles: expected a map of keys, found '50'"), Not(HasSubstr("note:"))));
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/modules.hpp"
+#include "core/nearest_name.hpp"
 #include "tests/io/sample_deck.hpp"
 
 namespace lampblack::io {
@@ -33,6 +34,17 @@ TEST(DeckErrors, AKeyThatIsRightElsewhereSaysWhere) {
   EXPECT_THAT(messageOf(test::sampleText + "cells: 3\n"), HasSubstr("did you mean 'mesh.z[].cells'?"));
   EXPECT_THAT(messageOf(sampleWith("    type: inlet\n", "    type: inlet\n    mechanism: gas.yaml\n")),
               HasSubstr("unknown key 'mechanism'; 'mechanism' stands at the top of the deck, not in a section."));
+}
+
+// Names of other programs, and sections that this kind of deck has not.
+TEST(DeckErrors, WordsOfAKeyOrKeysOfASectionTellWhatWasMeant) {
+  EXPECT_THAT(messageOf(sampleWith("    velocity: 20", "    inlet_velocity: 20")),
+              HasSubstr("did you mean 'velocity'?"));
+  EXPECT_THAT(messageOf(test::sampleText + "schedule: {end: 40 ms}\n"), HasSubstr("did you mean 'time.end'?"));
+  EXPECT_EQ(nameOfSameWords("connecting_rod", {"rod", "rods"}), "rod");
+  EXPECT_EQ(nameOfSameWords("viscosity", {"eddy_viscosity_ratio", "ratio"}), "eddy_viscosity_ratio");
+  EXPECT_EQ(nameOfSameWords("maximum_step", {"step", "first", "maximum"}), "");
+  EXPECT_EQ(nameOfSameWords("x", {"x_min"}), "");
 }
 
 TEST(DeckErrors, AnUnknownKeyLikeNothingListsWhatIsKnown) {
