@@ -92,6 +92,11 @@ class Conditions {
     return found == index_.end() ? "" : textOf(values_[found->second]);
   }
 
+  [[nodiscard]] bool isDefault(const std::string& path) const {
+    const auto found = index_.find(path);
+    return found != index_.end() && values_[found->second].isDefault;
+  }
+
   [[nodiscard]] bool holds(const DeckCondition& condition, const std::string& path) const {
     return std::ranges::find(condition.choices, valueOf(beside(condition.key, path))) != condition.choices.end() ||
            std::ranges::any_of(condition.others, [&](const DeckCondition& other) { return holds(other, path); });
@@ -106,11 +111,11 @@ class Conditions {
       std::string wanted = fmt::format("{}", fmt::join(condition.choices, ", "));
       for (const DeckCondition& one : condition.others)
         wanted += fmt::format("; or '{}': {}", beside(one.key, path), fmt::join(one.choices, ", "));
-      throw deckError(
-          source_, node->nameAt, path,
-          value.empty()
-              ? fmt::format("this counts only with '{}'; leave it out, or choose: {}", other, wanted)
-              : fmt::format("'{}: {}' does not have this; leave it out, or choose: {}", other, value, wanted));
+      throw deckError(source_, node->nameAt, path,
+                      value.empty()
+                          ? fmt::format("this counts only with '{}'; leave it out, or choose: {}", other, wanted)
+                          : fmt::format("'{}: {}' does not have this; leave it out, or choose: {}{}", other, value,
+                                        wanted, isDefault(other) ? fmt::format(" ({} is the default)", value) : ""));
     }
     return true;
   }
