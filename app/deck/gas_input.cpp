@@ -48,9 +48,11 @@ std::vector<double> readMixture(const Deck& deck, const std::string& section, co
   } else {
     for (const char* name : {"fuel", "oxidizer", "equivalence_ratio"})
       if (!has(name))
-        throw deck.error(section, fmt::format("'fuel', 'oxidizer' and 'equivalence_ratio' belong together; '{}' is "
-                                              "missing",
-                                              name));
+        throw deck.error(
+            section,
+            fmt::format("'fuel', 'oxidizer' and 'equivalence_ratio' belong together; '{}' is "
+                        "missing{}",
+                        name, std::string_view(name) == "oxidizer" ? ", for instance 'O2: 0.21, N2: 0.79'" : ""));
     const auto fuel = read("fuel"), oxidizer = read("oxidizer");
     X = deck.at(section, [&] {
       return mixByEquivalenceRatio(mechanism, fuel, oxidizer, deck.number(section + ".equivalence_ratio"));

@@ -118,6 +118,19 @@ TEST(FlowMesh, ASolidThatNamesOneAxisGoesThroughTheMesh) {
   EXPECT_THAT(Surface(mesh).faces, ElementsAre(15, 15, 15, 20, 15));
 }
 
+TEST(FlowMesh, TheAxisNeedsNoBoundary) {
+  const std::string sides = "  in: {type: inlet, side: z-min, velocity: 1 m/s, " + gas +
+                            "}\n  out: {type: outlet, side: z-max, " + gas + "}\n  wall: {type: wall, side: r-max}\n";
+  const std::string tube = "geometry: axisymmetric, r: [{to: 4 mm, cells: 4}], z: [{to: 6 mm, cells: 3}]";
+  FlowCase given = caseOf(tube, sides + "  axis: {type: symmetry, side: r-min}\n"), without = caseOf(tube, sides);
+  const Mesh a = makeMesh(MPI_COMM_WORLD, given), b = makeMesh(MPI_COMM_WORLD, without);
+  EXPECT_EQ(a.patches, b.patches);
+  EXPECT_EQ(Surface(a).faces, Surface(b).faces);
+  EXPECT_EQ(without.boundaries.back().kind, flow::BoundaryKind::Symmetry);
+  FlowCase aroundRod = caseOf(tube + ", solids: {rod: {r: [0 mm, 1 mm]}}", sides + "  rod: {type: wall, solid: rod}\n");
+  EXPECT_THAT(makeMesh(MPI_COMM_WORLD, aroundRod).patches, ElementsAre("in", "out", "wall", "rod"));
+}
+
 // The part of a side that a solid covers needs no boundary; the rest does.
 TEST(FlowMesh, SolidsCoverSides) {
   const std::string sides = "  out: {type: outlet, side: x-max, " + gas +

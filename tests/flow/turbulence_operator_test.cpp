@@ -124,6 +124,105 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
   }
 }
 
+// About an axis with swirl w = r (F + G z + H r), by the tensor written out: no strain of a gas that turns as a whole.
+TEST(Turbulence, SwirlHasItsShear) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const double length = 0.007, a = 2.0, b = 3.0;
+  std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
+                          side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)};
+  const auto axis = uniformAxis(length, 7);
+  Box box(Geometry::Axisymmetric, {axis, axis}, sides, gas);
+  const auto model = std::make_shared<PointwiseModel<Probe>>();
+  GasProperties properties;
+  for (const auto& [A, B, E, F, G, H] :
+       {std::array{0.0, 0.0, 0.0, 500.0, 0.0, 0.0}, {30.0, 90.0, -20.0, 500.0, 2e4, -3e4}}) {
+    State state = box.stateWith(
+        {TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+        [&](const Vector3& x) {
+          return Box::Local{{A * x[0], B * x[0] + E * x[1]}, 300.0, air};
+        },
+        true);
+    for (int c = 0; c < box.mesh.cells; ++c) {
+      const Vector3& x = box.mesh.centre[at(c)];
+      state.swirl[at(c)] = x[0] * (F + G * x[1] + H * x[0]);
+    }
+    properties.viscosity.assign(state.density.size(), 1.8e-5);
+    TurbulenceOperator turbulence(box.context, state, model, properties);
+    turbulence.setStart(state, {ofMolecules, ofMolecules, a});
+    turbulence.addRates(state, state.balance);
+    turbulence.setDiffusivities(state);
+    for (int c = 0; c < box.mesh.owned; ++c) {
+      const Vector3& x = box.mesh.centre[at(c)];
+      if (std::max(std::abs(x[0] - 0.5 * length), std::abs(x[1] - 0.5 * length)) > 0.3 * length) continue;
+      const double r = x[0], w = r * (F + G * x[1] + H * r), dilatation = 2.0 * A + E;
+      // du_i/dx_j of the directions r, z and about the axis.
+      const std::array<Vector3, 3> slope{{{A, 0.0, -w / r}, {B, E, 0.0}, {F + G * x[1] + 2.0 * H * r, r * G, A}}};
+      double strains = 0.0, turns = 0.0, stretching = 0.0;
+      std::array<Vector3, 3> S{}, W{};
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+          S[i][j] = 0.5 * (slope[i][j] + slope[j][i]) - (i == j ? 0.5 * dilatation : 0.0);
+          W[i][j] = 0.5 * (slope[i][j] - slope[j][i]);
+          turns += 2.0 * W[i][j] * W[i][j];
+          strains += 0.5 * (slope[i][j] + slope[j][i]) * (slope[i][j] + slope[j][i]);
+        }
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          for (std::size_t k = 0; k < 3; ++k) stretching += W[i][j] * W[j][k] * S[k][i];
+      const double strain = std::sqrt(strains - 2.0 / 3.0 * dilatation * dilatation), size = std::sqrt(turns);
+      EXPECT_NEAR(state.carriedDiffusivity[at(2 * c)], strain, 1e-9 * size);
+      EXPECT_NEAR(state.carriedDiffusivity[at(2 * c + 1)], size + b, 1e-9 * size);
+      EXPECT_NEAR(state.eddyViscosity[at(c)] / state.density[at(c)], std::abs(stretching), 1e-9 * size * size * size);
+    }
+  }
+}
+
+// Eddies of heated gas: what gravity and the slope of the density make, and the share of it that makes epsilon.
+struct Floating {
+  static constexpr bool needsWallDistance = false, needsStrainGradient = false;
+  [[nodiscard]] std::string name() const { return "floating"; }
+  [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return {{"a", "1", ""}, {"b", "1", ""}}; }
+  [[nodiscard]] std::array<double, 2> freeStream(const FreeStream&) const { return {2.0, 3.0}; }
+  [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
+    return {.diffusivity = {cell.buoyancy, cell.buoyancyShare}};
+  }
+};
+
+TEST(Turbulence, BuoyancyIsThatOfTheDensityAlongGravity) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const auto axis = uniformAxis(0.007, 7);
+  Box box(Geometry::Planar, {axis, axis},
+          {side(BoundaryKind::Wall, 0, false), side(BoundaryKind::Wall, 0, true), side(BoundaryKind::Wall, 1, false),
+           side(BoundaryKind::Wall, 1, true)},
+          gas);
+  box.context.gravity = {0.0, -9.81, 0.0};
+  box.context.eddies.schmidt = 0.7;
+  const auto model = std::make_shared<PointwiseModel<Floating>>();
+  State state = box.stateWith({TurbulenceOperator::blockOf(*model, box.context.boundaries, std::vector<FreeStream>(4))},
+                              [&](const Vector3&) {
+                                return Box::Local{{3.0, -4.0}, 300.0, air};
+                              });
+  for (int c = 0; c < box.mesh.cells; ++c)
+    state.density[at(c)] = 1.0 + 20.0 * box.mesh.centre[at(c)][0] + 30.0 * box.mesh.centre[at(c)][1];
+  GasProperties properties;
+  properties.viscosity.assign(state.density.size(), 1.8e-5);
+  for (const bool isWanted : {false, true}) {
+    TurbulenceOperator turbulence(box.context, state, model, properties, {.buoyancy = isWanted});
+    turbulence.setStart(state, {ofMolecules, ofMolecules, 2.0});
+    turbulence.addRates(state, state.balance);
+    turbulence.setDiffusivities(state);
+    for (int c = 0; c < box.mesh.owned; ++c) {
+      const Vector3& x = box.mesh.centre[at(c)];
+      if (std::max(std::abs(x[0] - 0.0035), std::abs(x[1] - 0.0035)) > 0.0021) continue;
+      const double made = 9.81 * 30.0 / state.density[at(c)] / 0.7;  // heavier above: made
+      EXPECT_NEAR(state.carriedDiffusivity[at(2 * c)], isWanted ? made : 0.0, 1e-9 * made);
+      EXPECT_NEAR(state.carriedDiffusivity[at(2 * c + 1)], isWanted ? std::tanh(4.0 / 3.0) : 0.0, 1e-12);
+    }
+  }
+}
+
 // All that an operator tells of a cell without walls.
 struct Listener {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false;

@@ -267,6 +267,29 @@ TEST(Turbulence, DilatationOfKEpsilonIsThatOfItsProduction) {
   }
 }
 
+// k gains nu_t times what buoyancy makes, or loses it; epsilon, of models that carry it, gains C_1 and the share of
+// that.
+TEST(Turbulence, BuoyancyMakesAndTakesEddies) {
+  for (const char* model : {"k_epsilon", "realizable_k_epsilon", "k_omega", "k_omega1988", "sst", "sst1994"}) {
+    SCOPED_TRACE(model);
+    const bool ofEpsilon = std::string_view(model).ends_with("epsilon");
+    TurbulentCell cell{.strain = 100.0, .distance = 0.1, .viscosity = nu, .values = {0.3, ofEpsilon ? 40.0 : 0.02}};
+    cell.buoyancyShare = 0.8;
+    const TurbulentRates still = ratesOf(model, cell);
+    for (const double made : {300.0, -300.0}) {
+      cell.buoyancy = made;
+      const TurbulentRates rates = ratesOf(model, cell);
+      expectShare(netRate(rates, cell, 0) - netRate(still, cell, 0), still.eddyViscosity * made, 1e-9);
+      EXPECT_EQ(rates.eddyViscosity, still.eddyViscosity);
+      const double more = netRate(rates, cell, 1) - netRate(still, cell, 1);
+      if (ofEpsilon)
+        expectShare(more, made > 0.0 ? 1.44 * 0.8 * still.eddyViscosity * made * 40.0 / 0.3 : 0.0, 1e-9);
+      else
+        EXPECT_EQ(more, 0.0);
+    }
+  }
+}
+
 // One cell in time by Runge and Kutta's method.
 void advanceCell(const char* model, TurbulentCell& cell, double time, int steps) {
   const double dt = time / steps;

@@ -23,7 +23,7 @@
 #include "flow/models/combustion/combustion_operator.hpp"
 #include "flow/models/radiation.hpp"
 #include "flow/models/reaction_operator.hpp"
-#include "flow/models/turbulence/turbulence_model.hpp"
+#include "flow/models/turbulence/turbulence_operator.hpp"
 #include "flow/properties/transport_model.hpp"
 #include "flow/steady/flow_branch.hpp"
 #include "flow/steady/leading_modes.hpp"
@@ -155,7 +155,7 @@ struct TurbulenceCase {
   std::shared_ptr<const TurbulenceModel> model;  // null: none
   EddyNumbers numbers;
   bool ignoresWalls = false;  // the wall distance is infinite
-  double mostRatio = 0.0;     // eddy viscosity over that of the molecules, beyond which a run ends
+  TurbulenceOperator::Options options;
   FreeStream start;
   std::vector<FreeStream> boundaries;  // of each, what comes in there
 };

@@ -34,6 +34,13 @@ std::vector<double> readComposition(const Deck& deck, const std::string& key, co
 // The section boundaries, on the mesh that has been read: along every side one boundary follows the other.
 void readBoundaries(const Deck& deck, FlowCase& flowCase);
 
+// The axis that `from` and `to` of a side go along, which is normal to `axis`.
+std::size_t alongSide(int axis);
+// Adds the boundary of the axis of an axisymmetric box, a symmetry without area, where the deck names none.
+void addAxis(FlowCase& flowCase);
+// InputError where a side of the box, or the surface of a solid, is not covered by boundaries, each once.
+void checkSides(const Deck& deck, FlowCase& flowCase);
+
 // What a name is in those of files and of groups of the results: other characters than letters, digits, _, - and +
 // become _.
 std::string fileNameOf(std::string name);

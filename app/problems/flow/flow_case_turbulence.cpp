@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "app/problems/flow/flow_case_parts.hpp"
 #include "io/deck_keys.hpp"
@@ -73,11 +74,12 @@ FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCas
 
 void addTurbulenceKeys(DeckSchema& schema) {
   SectionKeys keys("");
-  std::vector<std::string> names{"none"}, described, ofOmega;
+  std::vector<std::string> names{"none"}, described, ofOmega, ofEnergy;
   for (const TurbulenceRow& row : turbulenceModels()) {
     names.emplace_back(row.name);
     described.push_back(fmt::format("{}: {}", row.name, row.description));
     if (turbulenceModel(row.name)->wallBeta() > 0.0) ofOmega.emplace_back(row.name);
+    if (turbulenceModel(row.name)->knowsEnergy()) ofEnergy.emplace_back(row.name);
   }
   const std::vector<std::string> models(names.begin() + 1, names.end());
   keys.choice("turbulence.model", names, rules().byDefault("none"),
@@ -106,10 +108,14 @@ void addTurbulenceKeys(DeckSchema& schema) {
   keys.number("turbulence.largest_eddy_viscosity_ratio",
               rules().byDefault("1e5").above(0).onlyWith("turbulence.model", models),
               "A run ends where the eddy viscosity over that of the molecules becomes larger.");
-  keys.quantity("turbulence.energy", units::velocity * units::velocity,
-                rules().optional().above(0).onlyWith("turbulence.model", models),
-                "Turbulent kinetic energy k at the start, and of gas that outlets draw in, '0.3 m^2/s^2'; models of "
-                "two equations need it, those of one do not look at it.");
+  keys.boolean("turbulence.buoyancy", rules().byDefault("false").onlyWith("turbulence.model", ofEnergy),
+               "Whether eddies gain k where gravity and the slope of the density make them, and lose it where they "
+               "hinder them; off as in most published results.");
+  keys.quantity(
+      "turbulence.energy", units::velocity * units::velocity,
+      rules().optional().above(0).onlyWith("turbulence.model", models),
+      "Turbulent kinetic energy k at the start, and of gas that outlets draw in, '0.3 m^2/s^2', of models of two "
+      "equations; absent: the largest that an inlet brings by its intensity.");
   keys.number("boundaries.*.turbulence_intensity", rules().optional().above(0).onlyWith("boundaries.*.type", {"inlet"}),
               "Fluctuations of the velocity over the velocity: k = 1.5 (intensity * velocity)^2, of the velocity in "
               "the middle where it varies.");
@@ -146,10 +152,16 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
   }
   TurbulenceCase& turbulence = flowCase.turbulence;
   turbulence.ignoresWalls = deck.choice("turbulence.wall_distance") == "infinite";
-  turbulence.mostRatio = deck.number("turbulence.largest_eddy_viscosity_ratio");
+  turbulence.options.mostRatio = deck.number("turbulence.largest_eddy_viscosity_ratio");
+  if (turbulence.model->knowsEnergy()) turbulence.options.buoyancy = deck.boolean("turbulence.buoyancy");
+  if (turbulence.options.buoyancy && length(flowCase.gravity) == 0.0)
+    throw deck.error("turbulence.buoyancy", "there is no gravity; expected 'gravity: {z: -9.81 m/s^2}' or the like");
   turbulence.numbers = {deck.number("turbulence.prandtl"), deck.number("turbulence.schmidt")};
   if (flowCase.swirls)
-    throw deck.error("turbulence.model", "the models do not know the strain of a flow that swirls; expected none");
+    flowCase.notes.push_back(
+        fmt::format("turbulence.model: '{}' knows the strain of a flow that swirls, and not what the curvature of its "
+                    "streamlines does to eddies: strong swirl decays too fast",
+                    name));
   if (turbulence.model->needsWallDistance() && !turbulence.ignoresWalls &&
       std::ranges::none_of(flowCase.boundaries,
                            [](const BoundaryCondition& boundary) { return boundary.isNoSlipWall(); })) {
@@ -164,14 +176,23 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
   const Stream first{flowCase.initial.low.temperature, flowCase.initial.low.Y};
   turbulence.start.viscosity = kinematicViscosity(flowCase, first.temperature, first.Y);
   turbulence.start.eddyViscosity = deck.number("turbulence.eddy_viscosity_ratio") * turbulence.start.viscosity;
-  if (turbulence.model->knowsEnergy()) {
-    const auto energy = deck.optionalQuantity("turbulence.energy");
-    if (!energy) throw deck.error("turbulence", fmt::format("'{}' needs the key 'energy'", name));
-    turbulence.start.energy = *energy;
-  }
+  std::map<std::string, FreeStream> streams;  // of inlets
+  double most = 0.0;
   for (const BoundaryCondition& boundary : flowCase.boundaries)
-    turbulence.boundaries.push_back(boundary.kind == BoundaryKind::Inlet ? streamOf(deck, boundary, flowCase)
-                                                                         : turbulence.start);
+    if (boundary.kind == BoundaryKind::Inlet) {
+      const FreeStream& stream = streams[boundary.name] = streamOf(deck, boundary, flowCase);
+      most = std::max(most, stream.energy);
+    }
+  if (turbulence.model->knowsEnergy()) {
+    turbulence.start.energy = deck.optionalQuantity("turbulence.energy").value_or(most);
+    if (!(turbulence.start.energy > 0.0))
+      throw deck.error("turbulence",
+                       fmt::format("'{}' needs the key 'energy', as no inlet tells how large k is", name));
+  }
+  for (const BoundaryCondition& boundary : flowCase.boundaries) {
+    const auto stream = streams.find(boundary.name);
+    turbulence.boundaries.push_back(stream == streams.end() ? turbulence.start : stream->second);
+  }
 }
 
 }  // namespace lampblack::app::flowcase

@@ -124,7 +124,7 @@ FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo&
   }
   if (flowCase.turbulence.model) {
     turbulence = std::make_unique<TurbulenceOperator>(context, state, flowCase.turbulence.model, flow.properties(),
-                                                      flowCase.turbulence.mostRatio);
+                                                      flowCase.turbulence.options);
     operators.push_back(turbulence.get());
   }
   if (flowCase.combustion) {

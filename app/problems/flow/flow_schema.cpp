@@ -21,7 +21,8 @@ namespace {
 
 void addBoundaries(DeckSchema& schema) {
   SectionKeys keys("");
-  keys.section("boundaries", Presence::required, "Named parts of the surface and what happens there.");
+  keys.section("boundaries", Presence::required,
+               "Named parts of the surface and what happens there. The axis of an axisymmetric box needs none.");
   keys.choice("boundaries.*.type", {"inlet", "outlet", "wall", "symmetry", "periodic"}, rules(),
               "Kind of boundary: a stream that comes in, an opening, a solid wall, an axis or plane of symmetry, or "
               "one of two opposite sides of which what leaves by one comes in by the other.");

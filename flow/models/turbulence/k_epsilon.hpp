@@ -39,6 +39,8 @@ struct KEpsilon {
     rates.source[1] = c1 * cMu * k * S * S;
     rates.sink[1] = c2 * rate;
     rates.add(1, -2.0 / 3.0 * c1 * epsilon * cell.dilatation, epsilon);
+    rates.add(0, rates.eddyViscosity * cell.buoyancy, k);
+    rates.source[1] += c1 * cMu * k * cell.buoyancyShare * std::max(cell.buoyancy, 0.0);
     return rates;
   }
 };

@@ -49,12 +49,13 @@ inline void addOmega(const KOmegaState& state, double beta, double gained, Turbu
   rates.add(G, -0.5 * g * g * g * gained, g);
 }
 
-// `produced`: m^2/s^3, by strain; beside it what dilatation does.
+// `produced`: m^2/s^3, by strain; beside it what dilatation and buoyancy do.
 inline void addEnergy(const TurbulentCell& cell, const KOmegaState& state, double produced, double betaStar,
                       TurbulentRates& rates) {
   rates.source[K] += produced;
   rates.sink[K] += betaStar * state.omega;
   rates.add(K, -2.0 / 3.0 * state.k * cell.dilatation, state.k);
+  rates.add(K, rates.eddyViscosity * cell.buoyancy, state.k);
 }
 
 }  // namespace lampblack::flow::turbulence

@@ -13,6 +13,7 @@ namespace lampblack::flow {
 struct RealizableKEpsilon {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false, needsWallLaw = true;
   static constexpr double a0 = 4.04, c1Least = 0.43, c2 = 1.9, sigmaK = 1.0, sigmaEpsilon = 1.2;
+  static constexpr double c1OfBuoyancy = 1.44;  // that of the standard model
 
   [[nodiscard]] std::string name() const { return "realizable_k_epsilon"; }
   [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return KEpsilon().variables(); }
@@ -37,8 +38,10 @@ struct RealizableKEpsilon {
     rates.source[0] = rates.eddyViscosity * S * S;
     rates.sink[0] = epsilon / std::max(k, 1e-30);
     rates.add(0, -2.0 / 3.0 * k * cell.dilatation, k);
+    rates.add(0, rates.eddyViscosity * cell.buoyancy, k);
     const double shear = S * time;
     rates.source[1] = std::max(c1Least, shear / (shear + 5.0)) * S * epsilon;
+    rates.source[1] += c1OfBuoyancy * cMu * k * cell.buoyancyShare * std::max(cell.buoyancy, 0.0);
     rates.sink[1] = c2 * epsilon / (k + std::sqrt(cell.viscosity * epsilon));
     return rates;
   }

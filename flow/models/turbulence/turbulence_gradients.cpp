@@ -8,6 +8,35 @@
 
 namespace lampblack::flow {
 
+// What lighter gas below heavier one makes of eddies; of it a jet along gravity makes epsilon, a layer across it none.
+void TurbulenceOperator::findBuoyancy(const State& state) {
+  const Vector3& gravity = context_.gravity;
+  const double g = length(gravity);
+  if (!(g > 0.0)) return;
+  const auto d = static_cast<std::size_t>(context_.mesh.dimension);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    TurbulentCell& cell = cells_[c];
+    Vector3 velocity{};
+    std::copy_n(&state.velocity[c * d], d, velocity.begin());
+    const double along = std::abs(dot(velocity, gravity)) / g;
+    const double across = std::sqrt(std::max(dot(velocity, velocity) - along * along, 0.0));
+    cell.buoyancy = -dot(gravity, cell.densityGradient) / context_.eddies.schmidt;
+    cell.buoyancyShare = across > 0.0 ? std::tanh(along / across) : along > 0.0 ? 1.0 : 0.0;
+  }
+}
+
+// By the angular velocity, which has no slope at the axis: a gas that turns as a solid body has no strain.
+void TurbulenceOperator::findTurning(const State& state) {
+  const Mesh& m = context_.mesh;
+  for (std::size_t c = 0; c < turning_.size(); ++c) turning_[c] = state.swirl[c] / m.centre[c][0];
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+    if (knownTurning_[b] == BoundaryData::Value)
+      boundaryTurning_[b] = context_.boundarySwirl(face) / m.faceCentre[face][0];
+  }
+  gradient_.compute(turning_, boundaryTurning_, 1, turningGradient_, knownTurning_);
+}
+
 void TurbulenceOperator::addStrainGradient(const State& state) {
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(m.dimension);

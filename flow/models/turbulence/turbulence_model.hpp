@@ -36,6 +36,8 @@ struct TurbulentCell {
   double strainLaplacian = 0.0;  // 1/(s m^2)
   Vector3 strainGradient{};      // 1/(s m)
   Vector3 densityGradient{};     // 1/m, of the density over the density
+  double buoyancy = 0.0;         // 1/s^2, -g . grad rho/(rho Sc_t), by which eddies gain k; zero where it is not wanted
+  double buoyancyShare = 0.0;    // of that, what makes epsilon: tanh(|u along g|/|u across g|)
   std::array<double, most> values{};
   std::array<Vector3, most> gradients{};
   // Of the second variable's: what differences see beside the products of the gradients (Gradient::Beyond).

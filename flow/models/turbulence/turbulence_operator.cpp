@@ -45,11 +45,11 @@ ScalarBlock TurbulenceOperator::blockOf(const TurbulenceModel& model, const std:
 
 TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& state,
                                        std::shared_ptr<const TurbulenceModel> model, const GasProperties& properties,
-                                       double mostRatio)
+                                       const Options& options)
     : context_(context),
       model_(std::move(model)),
       properties_(properties),
-      mostRatio_(mostRatio),
+      options_(options),
       first_(static_cast<std::size_t>(state.block(owner).first)),
       count_(static_cast<std::size_t>(state.block(owner).count)),
       velocityGradient_(context),
@@ -75,6 +75,11 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   strainGradient_.resize(cells * d);
   strainSum_.resize(owned);
   if (count_ == 2) beyond_.resize(owned);
+  if (state.swirls) {
+    turning_.resize(cells);
+    boundaryTurning_.resize(faces);
+    turningGradient_.resize(cells * d);
+  }
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const auto b = static_cast<std::size_t>(face - m.interiorFaces);
     const BoundaryKind kind = context.boundaryOf(face).kind;
@@ -83,6 +88,7 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
         kind == BoundaryKind::Symmetry || isSlip ? BoundaryData::ZeroSlope : BoundaryData::Nothing;
     knownDensity_.push_back(open);
     knownStrain_.push_back(isSticky(face) ? BoundaryData::Value : open);
+    knownTurning_.push_back(isSticky(face) || kind == BoundaryKind::Inlet ? BoundaryData::Value : open);
     const auto patch = static_cast<std::size_t>(m.patch[b]);
     known_.push_back(state.scalars[first_].boundaries[patch].isHeld ? BoundaryData::Value : open);
     for (std::size_t v = 0; v < count_; ++v)
@@ -126,6 +132,13 @@ void TurbulenceOperator::findShear() {
         slope[j][i] = velocityGradient_.of(c, static_cast<int>(j))[i];
     TurbulentCell& cell = cells_[c];
     if (m.axisymmetric()) slope[2][2] = cell.dilatation - slope[0][0] - slope[1][1];
+    if (!turning_.empty()) {
+      const double r = m.centre[c][0], turning = turning_[c];
+      const double* gradient = &turningGradient_[static_cast<std::size_t>(c) * 2];
+      slope[2][0] = turning + r * gradient[0];
+      slope[2][1] = r * gradient[1];
+      slope[0][2] = -turning;
+    }
     double strains = 0.0, turns = 0.0;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) {
@@ -162,7 +175,8 @@ bool TurbulenceOperator::isOtherFlow(const State& state) {
     return 1;
   };
   int others = follow(state.velocity, seen_.velocity) | follow(velocityGradient_.boundary(), seen_.boundary) |
-               follow(state.density, seen_.density) | follow(properties_.viscosity, seen_.viscosity);
+               follow(state.swirl, seen_.swirl) | follow(state.density, seen_.density) |
+               follow(properties_.viscosity, seen_.viscosity);
   MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, context_.mesh.comm);
   return others != 0;
 }
@@ -184,6 +198,8 @@ void TurbulenceOperator::findFlow(const State& state) {
     if (model_->needsWallDistance()) cell.distance = context_.wallDistance[c];
     for (std::size_t i = 0; i < d; ++i) cell.densityGradient[i] = densityGradient_[c * d + i] / state.density[c];
   }
+  if (options_.buoyancy) findBuoyancy(state);
+  if (state.swirls) findTurning(state);
   findShear();
   if (model_->needsStrainGradient()) addStrainGradient(state);
 }

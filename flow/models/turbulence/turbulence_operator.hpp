@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -30,11 +31,18 @@ class TurbulenceOperator : public Operator {
   static ScalarBlock blockOf(const TurbulenceModel& model, const std::vector<BoundaryCondition>& conditions,
                              const std::vector<FreeStream>& boundaries);
 
+  struct Options {
+    // Of the eddy viscosity over that of the molecules, beyond which checkResult() fails.
+    double mostRatio = std::numeric_limits<double>::infinity();
+    bool buoyancy = false;  // eddies gain k, or lose it, where gravity and the slope of the density make or hinder them
+  };
   // `properties`: of transport, its molecular viscosities. The state has the model's block. The context has wall
-  // distances where the model needs them (std::logic_error). `mostRatio`: of the eddy viscosity over that of the
-  // molecules, beyond which checkResult() fails. Collective.
+  // distances where the model needs them (std::logic_error). Collective.
   TurbulenceOperator(const FlowContext& context, const State& state, std::shared_ptr<const TurbulenceModel> model,
-                     const GasProperties& properties, double mostRatio = std::numeric_limits<double>::infinity());
+                     const GasProperties& properties, const Options& options);
+  TurbulenceOperator(const FlowContext& context, const State& state, std::shared_ptr<const TurbulenceModel> model,
+                     const GasProperties& properties)
+      : TurbulenceOperator(context, state, std::move(model), properties, Options()) {}
 
   // The same everywhere, or the variables per kg and the eddy viscosity of `fields`, where they are. The state has its
   // density.
@@ -88,6 +96,8 @@ class TurbulenceOperator : public Operator {
   [[nodiscard]] std::array<double, 2> range() const;  // of y+, that the model is for
   void findShear();
   void addStrainGradient(const State& state);
+  void findTurning(const State& state);
+  void findBuoyancy(const State& state);
   [[nodiscard]] bool isSticky(int face) const;
   [[nodiscard]] double strainAtWall(int face, const State& state) const;
   void add(const State& state, State::Balance& rates) const;
@@ -95,7 +105,7 @@ class TurbulenceOperator : public Operator {
   const FlowContext& context_;
   std::shared_ptr<const TurbulenceModel> model_;
   const GasProperties& properties_;
-  double mostRatio_;
+  Options options_;
   std::size_t first_, count_;
   VelocityGradient velocityGradient_;
   Gradient gradient_;
@@ -105,7 +115,7 @@ class TurbulenceOperator : public Operator {
   std::vector<TurbulentRates> modelled_;  // without tangents and what walls make
   bool areRatesKnown_ = false;            // those of values_ and of the flow that was seen last
   struct {
-    std::vector<double> velocity, boundary, density, viscosity;
+    std::vector<double> velocity, boundary, swirl, density, viscosity;
   } seen_;
   using Slope = std::array<std::array<double, TurbulentCell::most>, TurbulentCell::most>;
   std::vector<Slope> slopes_;  // of the rate of one variable by another; zeros on the diagonal, of which sinks tell
@@ -123,6 +133,9 @@ class TurbulenceOperator : public Operator {
   std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_,
       strainGradient_, strainSum_;
   std::vector<Gradient::Beyond> beyond_;
+  // Of a flow that swirls: the angular velocity w/r of the local cells and boundary faces, 1/s, and its gradient.
+  std::vector<double> turning_, boundaryTurning_, turningGradient_;
+  std::vector<BoundaryData> knownTurning_;
   std::vector<double> density_;  // of the owned cells, as evaluated
   std::vector<double> drift_;    // kg/(m^2 s), of the local cells: density times the velocity that moves a variable
 };

@@ -30,7 +30,12 @@ double TurbulenceOperator::strainAtWall(int face, const State& state) const {
   for (int i = 0; i < d; ++i)
     rise[i] = state.velocity[d * m.low[face] + i] - velocityGradient_.boundary()[d * (face - m.interiorFaces) + i];
   const double across = dot(rise, m.normal[face]);
-  return std::sqrt(std::max(dot(rise, rise) - across * across, 0.0)) / m.distance[face];
+  double about = 0.0;
+  if (state.swirls) {
+    const double radius = m.faceCentre[face][0];
+    about = radius * state.swirl[m.low[face]] / m.centre[m.low[face]][0] - context_.boundarySwirl(face);
+  }
+  return std::sqrt(std::max(dot(rise, rise) - across * across, 0.0) + about * about) / m.distance[face];
 }
 
 // Cells beside walls for which the law of the wall stands.
@@ -154,7 +159,7 @@ std::vector<double> TurbulenceOperator::historyValues(const State& state) {
 }
 
 void TurbulenceOperator::checkResult() const {
-  if (told_.ratio.value <= mostRatio_) return;
+  if (told_.ratio.value <= options_.mostRatio) return;
   const Mesh& m = context_.mesh;
   std::array<double, TurbulentCell::most> values{};
   values.fill(-std::numeric_limits<double>::max());
@@ -168,7 +173,7 @@ void TurbulenceOperator::checkResult() const {
   raiseTogether(m.comm, NumericsError(fmt::format(
                             "in the cell at {}: the eddy viscosity is {:.3g} times that of the molecules, more than "
                             "{:.3g} (turbulence.largest_eddy_viscosity_ratio){}",
-                            placeText(told_.ratio.place, m.dimension), told_.ratio.value, mostRatio_, with)));
+                            placeText(told_.ratio.place, m.dimension), told_.ratio.value, options_.mostRatio, with)));
 }
 
 std::array<double, 2> TurbulenceOperator::range() const {
