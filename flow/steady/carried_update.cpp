@@ -133,11 +133,15 @@ void CarriedUpdate::dropFastGrowth(const State& state) {
 void CarriedUpdate::take(State& state, int cell) const {
   const auto c = static_cast<std::size_t>(cell);
   for (std::size_t s = 0; s < n_; ++s) {
-    const double present = start_[c * n_ + s], change = shares_[c] * scales_[s] * change_[c * n_ + s];
-    const double least = leastLeft * std::max(present, 0.0);
-    const double most = mostLeft * std::max(present, 0.0) + mostBeside * scales_[s];
-    state.carried[c * n_ + s] = state.density[c] * std::clamp(present + change, least, most);
+    const double change = shares_[c] * scales_[s] * change_[c * n_ + s];
+    state.carried[c * n_ + s] = state.density[c] * limited(s, start_[c * n_ + s], change);
   }
+}
+
+double CarriedUpdate::limited(std::size_t scalar, double present, double change) const {
+  const double least = leastLeft * std::max(present, 0.0);
+  const double most = mostLeft * std::max(present, 0.0) + mostBeside * scales_[scalar];
+  return std::clamp(present + change, least, most);
 }
 
 // 1/s, of the amounts: what the cell's equations have left after a share of its change (none: before it), its
@@ -216,14 +220,25 @@ int CarriedUpdate::sweep(State& state, const FlowResidual& residual, std::span<c
   return sweeps_.advance(state, {system_, inertia, right_, scales_, rates, sources});
 }
 
-int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
+void CarriedUpdate::prepare(const State& state, const FlowResidual& residual, std::span<const double> inertia) {
   findScales(state);
   assemble(state, residual, inertia);
+  if (!isByCell_) system_.factorise();
+}
+
+int CarriedUpdate::solve(std::span<const double> right, std::span<double> change, double reduction) {
+  for (std::size_t i = 0; i < right.size(); ++i) right_[i] = right[i] / scales_[i % n_];
+  const int iterations = system_.solve(right_, change, reduction, mostCarriedIterations).iterations;
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] *= scales_[i % n_];
+  return iterations;
+}
+
+int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
+  prepare(state, residual, inertia);
   int iterations = 0;
   if (isByCell_) {
     iterations = sweep(state, residual, inertia);
   } else {
-    system_.factorise();
     iterations = system_.solve(right_, change_, carriedReduction, mostCarriedIterations).iterations;
     takeShares(state, residual);
   }

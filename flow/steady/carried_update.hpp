@@ -31,6 +31,15 @@ class CarriedUpdate {
   // new state. The iterations of the linear solver, or the sweeps.
   int advance(State& state, const FlowResidual& residual, std::span<const double> inertia);
 
+  // The parts of advance() where all cells are one linear system. Collective: the system of a state,
+  void prepare(const State& state, const FlowResidual& residual, std::span<const double> inertia);
+  // and its solution for any right side (kg/s times an amount per kg, owned cells), down to `reduction` of it: what
+  // amounts per kg change by, of all cells. The iterations.
+  int solve(std::span<const double> right, std::span<double> change, double reduction);
+  // And, not collective, an amount per kg after a change, no further than a step may go.
+  [[nodiscard]] double limited(std::size_t scalar, double present, double change) const;
+  [[nodiscard]] std::span<const double> scales() const { return scales_; }
+
  private:
   void findScales(const State& state);
   int sweep(State& state, const FlowResidual& residual, std::span<const double> inertia);

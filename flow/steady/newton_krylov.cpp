@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "flow/cell_errors.hpp"
+#include "flow/discretisation/face_fluxes.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -12,8 +14,9 @@ namespace {
 constexpr int krylov = 60;
 constexpr double gasOfPreconditioner = 0.1;
 constexpr int mostOfPreconditioner = 1;  // more leave as many iterations around them
-constexpr double leastTypical = 1e-10;   // mass fraction: less is none
-constexpr double smallStep = 1e-7;       // of the unknowns' units, for differences
+constexpr double carriedOfPreconditioner = 0.1;
+constexpr double leastTypical = 1e-10;  // mass fraction: less is none
+constexpr double smallStep = 1e-7;      // of the unknowns' units, for differences
 
 NewtonKrylov* newtonOf(void* context) {
   return static_cast<NewtonKrylov*>(context);
@@ -21,14 +24,19 @@ NewtonKrylov* newtonOf(void* context) {
 
 }  // namespace
 
-NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas)
+NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
+                           CarriedUpdate* carried, std::vector<Operator*> operators)
     : context_(context),
       residual_(residual),
       gas_(gas),
+      carried_(carried),
+      operators_(std::move(operators)),
       flow_(context, state, residual),
       width_(static_cast<std::size_t>(state.species) + 1),
       velocities_(static_cast<std::size_t>(state.dimension) + (state.swirls ? 1 : 0)),
-      perCell_(width_ + velocities_ + 1),
+      scalars_(carried ? state.scalars.size() : 0),
+      perCell_(width_ + velocities_ + 1 + scalars_),
+      pastFlow_(width_ + velocities_ + 1),
       faces_(static_cast<std::size_t>(context.mesh.faces)),
       size_(static_cast<std::size_t>(context.mesh.owned) * perCell_ + faces_) {
   const Mesh& m = context.mesh;
@@ -36,6 +44,8 @@ NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowR
   gasRight_.resize(static_cast<std::size_t>(m.owned) * width_);
   gasChange_.resize(static_cast<std::size_t>(m.cells) * width_);
   densityChange_.resize(static_cast<std::size_t>(m.cells));
+  carriedRight_.resize(static_cast<std::size_t>(m.owned) * scalars_);
+  carriedChange_.resize(static_cast<std::size_t>(m.cells) * scalars_);
   const auto size = static_cast<PetscInt>(size_);
   checkPetsc(MatCreateShell(m.comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE, this, matrix_.put()));
   const auto product = [](Mat matrix, Vec x, Vec y) -> PetscErrorCode {
@@ -73,7 +83,12 @@ void NewtonKrylov::find(const State& state, std::span<double> left) {
     gas_.findLeft(state, residual_, c, own);
     for (std::size_t i = 0; i < d; ++i) own[width_ + i] = rates.momentum[c * d + i];
     if (state.swirls) own[width_ + d] = rates.angularMomentum[c] / m.centre[c][0];
-    own[width_ + velocities_] = rates.mass[c];
+    own[pastFlow_ - 1] = rates.mass[c];
+    for (std::size_t s = 0; s < scalars_; ++s) {
+      const std::size_t i = c * scalars_ + s;
+      own[pastFlow_ + s] =
+          state.scalars[s].isTransported ? rates.carried[i] - state.carried[i] / state.density[c] * rates.mass[c] : 0.0;
+    }
   }
   std::ranges::copy(rates.massFlux, left.begin() + static_cast<std::ptrdiff_t>(size_ - faces_));
 }
@@ -89,12 +104,18 @@ void NewtonKrylov::move(State& state, double step, std::span<const double> along
     state.temperature[c] += step * GasUpdate::kelvins * own[n];
     for (std::size_t i = 0; i < d; ++i) state.velocity[c * d + i] += step * own[width_ + i];
     if (state.swirls) state.swirl[c] += step * own[width_ + d];
-    state.pressure[c] += step * own[width_ + velocities_];
+    state.pressure[c] += step * own[pastFlow_ - 1];
     followGas(context_, state, cell);
+    for (std::size_t s = 0; s < scalars_; ++s)
+      state.carried[c * scalars_ + s] += step * state.density[c] * own[pastFlow_ + s];
   });
   const std::span<const double> fluxes = along.last(faces_);
   for (std::size_t f = 0; f < faces_; ++f) state.massFlux[f] += step * fluxes[f];
   state.updateHalo(context_.halo);
+  if (carried_) {
+    for (Operator* op : operators_) op->setDiffusivities(state);
+    state.updateHalo(context_.halo);
+  }
 }
 
 // Of the equations: over what goes through all of the domain, as the measure of an iteration has them. (Over what there
@@ -123,13 +144,25 @@ void NewtonKrylov::findScales(const State& state) {
   row[width_ - 1] = GasUpdate::kelvins / (through * range);
   std::fill_n(row.begin() + static_cast<std::ptrdiff_t>(width_), velocities_, 1.0 / (through * speed));
   std::fill_n(unit.begin() + static_cast<std::ptrdiff_t>(width_), velocities_, speed);
+  for (std::size_t s = 0; s < scalars_; ++s) {
+    unit[pastFlow_ + s] = carried_->scales()[s];
+    row[pastFlow_ + s] = 1.0 / (through * carried_->scales()[s]);
+  }
   for (std::size_t c = 0; c < owned; ++c) {
-    unit.back() = state.density[c] * speed * speed;
+    unit[pastFlow_ - 1] = state.density[c] * speed * speed;
     std::ranges::copy(row, rows_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
     std::ranges::copy(unit, units_.begin() + static_cast<std::ptrdiff_t>(c * perCell_));
   }
   std::fill(rows_.end() - static_cast<std::ptrdiff_t>(faces_), rows_.end(), 1.0 / through);
   std::fill(units_.end() - static_cast<std::ptrdiff_t>(faces_), units_.end(), through / sums[1]);
+}
+
+// For differences along a change; zero where there is none.
+double NewtonKrylov::stepOf(std::span<const double> along) const {
+  double most = 0.0;
+  for (std::size_t i = 0; i < size_; ++i) most = std::max(most, std::abs(along[i]) / units_[i]);
+  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
+  return most > 0.0 ? smallStep / most : 0.0;
 }
 
 // By the difference of what is left; in the pseudo-time.
@@ -138,21 +171,19 @@ void NewtonKrylov::multiply(Vec x, Vec y) {
   const PetscMutableValues product(y);
   const std::span<const double> along = values.get();
   const std::span<double> to = product.get();
-  double most = 0.0;
-  for (std::size_t i = 0; i < size_; ++i) most = std::max(most, std::abs(along[i]) / units_[i]);
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
-  if (!(most > 0.0)) {
+  const double step = stepOf(along);
+  if (!(step > 0.0)) {
     std::ranges::fill(to, 0.0);
     return;
   }
-  const double step = smallStep / most;
   State beside = *base_;
   move(beside, step, along);
   residual_.evaluate(beside);
   find(beside, leftBeside_);
   for (std::size_t i = 0; i < size_; ++i) to[i] = (left_[i] - leftBeside_[i]) / step;
   for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
-    for (std::size_t i = c * perCell_; i < c * perCell_ + width_ + velocities_; ++i) to[i] += inertia_[c] * along[i];
+    for (std::size_t i = 0; i < perCell_; ++i)
+      if (i + 1 != pastFlow_) to[c * perCell_ + i] += inertia_[c] * along[c * perCell_ + i];
   for (std::size_t i = 0; i < size_; ++i) to[i] *= rows_[i];
 }
 
@@ -205,9 +236,42 @@ void NewtonKrylov::precondition(Vec x, Vec y) {
     double* own = &to[c * perCell_];
     std::copy_n(&gasChange_[c * width_], width_, own);
     for (std::size_t i = 0; i < velocities_; ++i) own[width_ + i] = change.velocity[c * velocities_ + i];
-    own[width_ + velocities_] = change.pressure[c];
+    own[pastFlow_ - 1] = change.pressure[c];
   }
   std::ranges::copy(change.massFlux, to.end() - static_cast<std::ptrdiff_t>(faces_));
+  if (carried_) {
+    for (std::size_t c = 0; c < owned; ++c)
+      for (std::size_t s = 0; s < scalars_; ++s) {
+        const std::size_t at = c * perCell_ + pastFlow_ + s;
+        carriedRight_[c * scalars_ + s] = right[at] / rows_[at];
+        to[at] = 0.0;
+      }
+    addBrought(to);
+    carried_->solve(carriedRight_, carriedChange_, carriedOfPreconditioner);
+    for (std::size_t c = 0; c < owned; ++c)
+      std::copy_n(&carriedChange_[c * scalars_], scalars_, &to[c * perCell_ + pastFlow_]);
+  }
+}
+
+// To the right side of what is carried what a change of all else leaves of its equations, by the difference: shear
+// makes turbulence, and the flow carries it.
+void NewtonKrylov::addBrought(std::span<const double> along) {
+  const Mesh& m = context_.mesh;
+  const double step = stepOf(along);
+  if (!(step > 0.0)) return;
+  State beside = *base_;
+  move(beside, step, along);
+  const FlowResidual::Rates& rates = residual_.evaluateCarried(beside);
+  // Beside the mass that the fluxes bring; what reactions make of it stays what it was.
+  std::vector<double> mass(baseMass_);
+  for (int face = 0; face < m.faces; ++face)
+    addFaceFlux(m, face, beside.massFlux[face] - base_->massFlux[face], 1.0, mass);
+  for (std::size_t i = 0; i < carriedRight_.size(); ++i) {
+    const std::size_t c = i / scalars_, s = i % scalars_;
+    if (!base_->scalars[s].isTransported) continue;
+    const double left = rates.carried[i] - beside.carried[i] / beside.density[c] * mass[c];
+    carriedRight_[i] += (left - left_[c * perCell_ + pastFlow_ + s]) / step;
+  }
 }
 
 NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double> inertia, double reduction) {
@@ -216,9 +280,11 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   inertia_ = inertia;
   gas_.prepare(state, residual_, inertia);
   flow_.prepare(state, inertia);
+  if (carried_) carried_->prepare(state, residual_, inertia);
   faceDensity_ = residual_.faces().density;
   findScales(state);
   find(state, left_);
+  baseMass_ = residual_.rates().mass;
   {
     const PetscMutableValues values(rightSide_.get());
     for (std::size_t i = 0; i < size_; ++i) values.get()[i] = rows_[i] * left_[i];
@@ -243,12 +309,17 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
     std::copy_n(own, width_, &gasChange_[c * width_]);
     for (std::size_t i = 0; i < d; ++i) state.velocity[c * d + i] += own[width_ + i];
     if (state.swirls) state.swirl[c] += own[width_ + d];
-    state.pressure[c] += own[width_ + velocities_];
+    state.pressure[c] += own[pastFlow_ - 1];
   }
   for (std::size_t f = 0; f < faces_; ++f) state.massFlux[f] += change[size_ - faces_ + f];
   const GasUpdate::Result taken = gas_.take(state, gasChange_);
   result.largestRise = taken.largestRise;
   result.limited = taken.limited;
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
+    for (std::size_t s = 0; s < scalars_; ++s) {
+      double& amount = state.carried[c * scalars_ + s];
+      amount = state.density[c] * carried_->limited(s, amount / state.density[c], change[c * perCell_ + pastFlow_ + s]);
+    }
   return result;
 }
 

@@ -1,8 +1,9 @@
 // Newton's method for the steady state of a flow whose flame stands: gas, velocities, pressure and mass fluxes
 // together. The linear systems are solved by flexible GMRES (Saad 1993), the matrix known by differences of
 // FlowResidual alone (Knoll and Keyes 2004), preconditioned by what an iteration does with the gas (GasUpdate) and then
-// the flow by elimination (CoupledFlow), with the matrices of the state that the step begins with. docs/theory/flow.md,
-// "Iterations".
+// the flow by elimination (CoupledFlow), with the matrices of the state that the step begins with. What is carried and
+// moves all else, as the variables of turbulence do by the eddy viscosity, is unknown too, and comes last in the
+// preconditioner (CarriedUpdate), with what the change of the flow brings it. docs/theory/flow.md, "Iterations".
 #pragma once
 
 #include <span>
@@ -13,7 +14,9 @@
 #include "core/petsc_callbacks.hpp"
 #include "flow/equations/flow_residual.hpp"
 #include "flow/flow_context.hpp"
+#include "flow/operator.hpp"
 #include "flow/state.hpp"
+#include "flow/steady/carried_update.hpp"
 #include "flow/steady/coupled_flow.hpp"
 #include "flow/steady/gas_update.hpp"
 
@@ -21,8 +24,10 @@ namespace lampblack::flow {
 
 class NewtonKrylov {
  public:
-  // Collective. All have to live as long.
-  NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas);
+  // Collective. All have to live as long. `carried`: of all that the flow carries, which is unknown, too, then, and
+  // what the operators make of it (Operator::setDiffusivities) follows; null: it stays as it is, per mass.
+  NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
+               CarriedUpdate* carried = nullptr, std::vector<Operator*> operators = {});
 
   struct Result {
     int iterations = 0;        // of the linear solver
@@ -40,16 +45,21 @@ class NewtonKrylov {
   void findScales(const State& state);
   void multiply(Vec x, Vec y);
   void precondition(Vec x, Vec y);
+  [[nodiscard]] double stepOf(std::span<const double> along) const;
+  void addBrought(std::span<const double> along);
 
   const FlowContext& context_;
   FlowResidual& residual_;
   GasUpdate& gas_;
+  CarriedUpdate* carried_;
+  std::vector<Operator*> operators_;
   CoupledFlow flow_;
-  std::size_t width_, velocities_, perCell_, faces_, size_;
+  std::size_t width_, velocities_, scalars_, perCell_, pastFlow_, faces_, size_;
   const State* base_ = nullptr;
   std::span<const double> inertia_;
   std::vector<double> left_, leftBeside_, rows_, units_;
-  std::vector<double> gasRight_, gasChange_, densityChange_, faceDensity_;
+  std::vector<double> gasRight_, gasChange_, densityChange_, faceDensity_, baseMass_;
+  std::vector<double> carriedRight_, carriedChange_;
   PetscExceptions exceptions_;
   PetscMatrix matrix_;
   PetscVector solution_, rightSide_;

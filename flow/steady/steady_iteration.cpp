@@ -61,11 +61,15 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       carriedInertia_(inertia_.size()),
       haste_(inertia_.size(), 1.0) {
   if (control_) beside_.emplace(context, state, options.scheme, operators_);
-  // What is carried follows: of eddies, which move all else, that is no step of Newton's; nor is one after which the
-  // pressure of a closed vessel moves.
-  if (!control_ && state.eddyViscosity.empty() && !context.isClosed() && options.newton)
-    newton_.emplace(context, state, residual_, gas_);
   if (!state.scalars.empty()) carried_.emplace(context, state, residual_, operators_);
+  // What is carried follows, but of eddies, which move all else. No step of Newton's is one after which the pressure of
+  // a closed vessel moves.
+  if (!control_ && !context.isClosed() && options.newton) {
+    if (state.eddyViscosity.empty())
+      newton_.emplace(context, state, residual_, gas_);
+    else
+      newton_.emplace(context, state, residual_, gas_, &*carried_, operators_);
+  }
   residual_.evaluate(state);
   measure_ = measure(state);
 }
@@ -261,7 +265,7 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
     outcome.limited = step.limited;
     for (Operator* op : operators_) op->setDiffusivities(state);
     state.updateHalo(context_.halo);
-    if (carried_) advanceCarried(state);
+    if (carried_ && state.eddyViscosity.empty()) advanceCarried(state);
     residual_.evaluate(state);
     measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {
