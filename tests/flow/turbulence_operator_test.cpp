@@ -221,6 +221,43 @@ TEST(Turbulence, BuoyancyIsThatOfTheDensityAlongGravity) {
       EXPECT_NEAR(state.carriedDiffusivity[at(2 * c + 1)], isWanted ? std::tanh(4.0 / 3.0) : 0.0, 1e-12);
     }
   }
+// In shear, k begins with as much production as dissipation where there would be more.
+TEST(Turbulence, BeginsInShearWithEddiesThatAreInBalance) {
+  Gas& gas = Gas::hydrogen();
+  const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
+  const double shear = 5e3, k = 0.6, balance = 0.3 * k / shear;
+  std::vector<Side> sides;
+  for (const int axis : {0, 1})
+    for (const bool isAtMax : {false, true}) sides.push_back(side(BoundaryKind::Wall, axis, isAtMax));
+  const auto axis = uniformAxis(0.007, 7);
+  Box box(Geometry::Planar, {axis, axis}, sides, gas);
+  for (const char* name : {"k_omega", "k_epsilon"})
+    for (const double asked : {10.0 * balance, 0.1 * balance}) {
+      SCOPED_TRACE(fmt::format("{} {}", name, asked));
+      const auto model = turbulenceModel(name);
+      const std::vector<FreeStream> none(4, {ofMolecules, ofMolecules, k});
+      State state =
+          box.stateWith({TurbulenceOperator::blockOf(*model, box.context.boundaries, none)}, [&](const Vector3& x) {
+            return Box::Local{{shear * x[1], 0.0}, 300.0, air};
+          });
+      GasProperties properties;
+      properties.viscosity.assign(state.density.size(), 1.8e-5);
+      TurbulenceOperator turbulence(box.context, state, model, properties);
+      turbulence.setStart(state, {ofMolecules, asked, k});
+      int inside = 0;
+      for (int c = 0; c < box.mesh.owned; ++c) {
+        const Vector3& x = box.mesh.centre[at(c)];
+        if (std::max(std::abs(x[0] - 0.0035), std::abs(x[1] - 0.0035)) > 0.0021) continue;
+        ++inside;
+        const double density = state.density[at(c)], eddies = std::min(asked, balance);
+        const std::vector<double> values{state.carried[at(2 * c)] / density, state.carried[at(2 * c + 1)] / density};
+        EXPECT_NEAR(values[0], k, 1e-12);
+        EXPECT_NEAR(state.eddyViscosity[at(c)] / density / eddies, 1.0, 1e-9);
+        EXPECT_NEAR(model->dissipation(values).value() / (0.09 * k * k / eddies), 1.0, 1e-9);
+      }
+      MPI_Allreduce(MPI_IN_PLACE, &inside, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+      EXPECT_EQ(inside, 25);
+    }
 }
 
 // All that an operator tells of a cell without walls.

@@ -98,14 +98,25 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   findLayers();
 }
 
-void TurbulenceOperator::setStart(State& state, const FreeStream& start, std::span<const FieldFunction> fields) const {
-  const auto values = model_->freeStream(start);
+void TurbulenceOperator::setStart(State& state, const FreeStream& start, std::span<const FieldFunction> fields) {
+  const bool isSheared = fields.empty() && model_->knowsEnergy();
+  if (isSheared) {
+    context_.halo.update(state.velocity, context_.mesh.dimension);
+    velocityGradient_.setBoundary(state.velocity);
+    velocityGradient_.compute(state.velocity);
+    findShear(state);
+    context_.halo.update(strain_, 1);
+  }
   const std::size_t n = state.scalars.size();
+  FreeStream stream = start;
   for (std::size_t c = 0; c < state.density.size(); ++c) {
+    if (isSheared && strain_[c] > 0.0)
+      stream.eddyViscosity = std::min(start.eddyViscosity, std::sqrt(walllaw::cMu) * start.energy / strain_[c]);
+    const auto values = model_->freeStream(stream);
     const auto given = [&](std::size_t f) { return fields[f](context_.mesh.centre[c], 0.0); };
     for (std::size_t v = 0; v < count_; ++v)
       state.carried[c * n + first_ + v] = state.density[c] * (fields.empty() ? values[v] : given(v));
-    state.eddyViscosity[c] = fields.empty() ? state.density[c] * start.eddyViscosity : given(count_);
+    state.eddyViscosity[c] = fields.empty() ? state.density[c] * stream.eddyViscosity : given(count_);
   }
 }
 
@@ -121,7 +132,8 @@ void TurbulenceOperator::advance(State& state, double, double dt) {
 }
 
 // Strain, vorticity and dilatation of the owned cells, of the gradient that has been computed.
-void TurbulenceOperator::findShear() {
+void TurbulenceOperator::findShear(const State& state) {
+  if (state.swirls) findTurning(state);
   const Mesh& m = context_.mesh;
   const int d = m.dimension;
   for (int c = 0; c < m.owned; ++c) {
@@ -131,6 +143,7 @@ void TurbulenceOperator::findShear() {
       for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i)
         slope[j][i] = velocityGradient_.of(c, static_cast<int>(j))[i];
     TurbulentCell& cell = cells_[c];
+    cell.dilatation = velocityGradient_.dilatation(c, state.velocity);
     if (m.axisymmetric()) slope[2][2] = cell.dilatation - slope[0][0] - slope[1][1];
     if (!turning_.empty()) {
       const double r = m.centre[c][0], turning = turning_[c];
@@ -193,14 +206,12 @@ void TurbulenceOperator::findFlow(const State& state) {
   std::copy_n(state.density.begin(), cells_.size(), density_.begin());
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     TurbulentCell& cell = cells_[c];
-    cell.dilatation = velocityGradient_.dilatation(static_cast<int>(c), state.velocity);
     cell.viscosity = properties_.viscosity[c] / state.density[c];
     if (model_->needsWallDistance()) cell.distance = context_.wallDistance[c];
     for (std::size_t i = 0; i < d; ++i) cell.densityGradient[i] = densityGradient_[c * d + i] / state.density[c];
   }
   if (options_.buoyancy) findBuoyancy(state);
-  if (state.swirls) findTurning(state);
-  findShear();
+  findShear(state);
   if (model_->needsStrainGradient()) addStrainGradient(state);
 }
 

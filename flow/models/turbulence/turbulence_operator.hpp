@@ -45,8 +45,9 @@ class TurbulenceOperator : public Operator {
       : TurbulenceOperator(context, state, std::move(model), properties, Options()) {}
 
   // The same everywhere, or the variables per kg and the eddy viscosity of `fields`, where they are. The state has its
-  // density.
-  void setStart(State& state, const FreeStream& start, std::span<const FieldFunction> fields = {}) const;
+  // density and velocities. A model that knows k begins in shear with no larger eddy viscosity than that with which as
+  // much of k is produced as dissipated: else k runs away from a frequency that knows nothing of the shear. Collective.
+  void setStart(State& state, const FreeStream& start, std::span<const FieldFunction> fields = {});
 
   [[nodiscard]] const char* name() const override { return "turbulence"; }
   // Moves the eddy viscosity towards that of the variables: all the way where the step is short against the strain's
@@ -94,7 +95,7 @@ class TurbulenceOperator : public Operator {
   void applyWallLaw();
   void storeDiffusivities(State& state) const;
   [[nodiscard]] std::array<double, 2> range() const;  // of y+, that the model is for
-  void findShear();
+  void findShear(const State& state);
   void addStrainGradient(const State& state);
   void findTurning(const State& state);
   void findBuoyancy(const State& state);
