@@ -83,6 +83,8 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
       EXPECT_NEAR(alone.netOfCarried(i, varied.carried), net, 1e-9 * (1.0 + std::abs(net)));
     }
     turbulence.addRates(state, rates = state.balance);
+    std::vector<double> slopes(4 * at(box.mesh.owned));
+    turbulence.addSlopes(state, {{}, slopes});
     turbulence.advance(state, 0.0, 0.0);
     // From eddies that are not the state's own, with a halo of what is long past.
     constexpr double past = 7.0;
@@ -112,6 +114,12 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
       EXPECT_NEAR(rates.carried[at(2 * c)] / density - rates.carriedSink[at(2 * c)] * a, source - a * a * a, 1e-8);
       EXPECT_NEAR(rates.carried[at(2 * c + 1)] / (density * (std::abs(B - C) + 5.0 * b - 40.0 * a)), 1.0, 1e-9);
       EXPECT_EQ(rates.carriedSink[at(2 * c + 1)], 0.0);
+      // Of both variables by both, what grows by itself, too.
+      const double* slope = &slopes[at(4 * c)];
+      EXPECT_NEAR(slope[0] / (-3.0 * a * a), 1.0, 1e-5);
+      EXPECT_NEAR(slope[1] / -40.0, 1.0, 1e-6);
+      EXPECT_NEAR(slope[2], 0.0, 1e-6);
+      EXPECT_NEAR(slope[3] / 5.0, 1.0, 1e-6);
       EXPECT_NEAR(state.eddyViscosity[at(c)] / density, 0.25 * B * B * hoop, 1e-6);
       EXPECT_NEAR(own.eddyViscosity[at(c)] / density, 0.25 * B * B * hoop, 1e-6);
       EXPECT_NEAR(relaxed.eddyViscosity[at(c)], 0.8 * past + 0.2 * own.eddyViscosity[at(c)],

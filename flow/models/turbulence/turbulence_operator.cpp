@@ -257,7 +257,8 @@ void TurbulenceOperator::evaluate(const State& state, Tangents tangents) {
 
 // Sinks become what a rate falls by as its own variable rises, where that is more; the rates stay what they are. The
 // wall function of SA goes with the sixth power of the variable: with a sink of that of the square alone long steps
-// swing.
+// swing. Slopes are the derivatives: of two variables that make and destroy each other's all four as they are, of one
+// by itself the sink, without what it makes of itself.
 void TurbulenceOperator::linearise() {
   constexpr double small = 1e-6;
   std::ranges::copy(cells_, beside_.begin());
@@ -266,6 +267,7 @@ void TurbulenceOperator::linearise() {
     return of.source[v] - of.sink[v] * cell.values[v];
   };
   for (std::size_t v = 0; v < count_; ++v) {
+    for (std::size_t c = 0; c < cells_.size(); ++c) slopes_[c][v][v] = -rates_[c].sink[v];
     for (std::size_t c = 0; c < cells_.size(); ++c) beside_[c].values[v] += small * std::abs(cells_[c].values[v]);
     model_->evaluate(beside_, ratesBeside_);
     for (std::size_t c = 0; c < cells_.size(); ++c) {
@@ -275,11 +277,13 @@ void TurbulenceOperator::linearise() {
       TurbulentCell moved = cells_[c];
       moved.values[v] += rise;
       for (std::size_t w = 0; w < count_; ++w)
-        if (w != v) slopes_[c][w][v] = (net(ratesBeside_[c], moved, w) - net(rates_[c], cells_[c], w)) / rise;
-      const double more = -(net(ratesBeside_[c], moved, v) - net(rates_[c], cells_[c], v)) / rise - rates_[c].sink[v];
-      if (!(more > 0.0)) continue;
-      rates_[c].sink[v] += more;
-      rates_[c].source[v] += more * cells_[c].values[v];
+        slopes_[c][w][v] = (net(ratesBeside_[c], moved, w) - net(rates_[c], cells_[c], w)) / rise;
+      const double more = -slopes_[c][v][v] - rates_[c].sink[v];
+      if (more > 0.0) {
+        rates_[c].sink[v] += more;
+        rates_[c].source[v] += more * cells_[c].values[v];
+      }
+      if (count_ == 1) slopes_[c][v][v] = -rates_[c].sink[v];
     }
   }
 }
@@ -310,8 +314,7 @@ void TurbulenceOperator::addSlopes(const State& state, const Slopes& slopes) {
   for (std::size_t c = 0; c < rates_.size(); ++c)
     for (std::size_t v = first_; v < first_ + count_; ++v)
       for (std::size_t w = first_; w < first_ + count_; ++w)
-        slopes.carried[(c * n + v) * n + w] +=
-            v == w ? -rates_[c].sink[v - first_] : slopes_[c][w - first_][v - first_];
+        slopes.carried[(c * n + v) * n + w] += slopes_[c][w - first_][v - first_];
 }
 
 // Of the owned cells, as evaluated.

@@ -56,7 +56,7 @@ class TurbulenceOperator : public Operator {
   void endSweep(State& state) override;
   void addRates(const State& state, State::Balance& rates) override;
   void addRatesOfCarried(const State& state, State::Balance& rates) override;
-  // Of the state that addRates() was asked of last: those of rates by other variables, and sinks.
+  // Of the state that addRates() was asked of last.
   void addSlopes(const State& state, const Slopes& slopes) override;
   void addCarriedFlow(std::span<double> flow) override;
   [[nodiscard]] bool actsOnCarried() const override { return true; }
@@ -119,7 +119,7 @@ class TurbulenceOperator : public Operator {
     std::vector<double> velocity, boundary, swirl, density, viscosity;
   } seen_;
   using Slope = std::array<std::array<double, TurbulentCell::most>, TurbulentCell::most>;
-  std::vector<Slope> slopes_;  // of the rate of one variable by another; zeros on the diagonal, of which sinks tell
+  std::vector<Slope> slopes_;  // of the rate of one variable by another
   // Walls for whose layers the law of the wall stands, and of the owned cells beside them what it makes there, and
   // area.
   std::vector<int> layerFaces_;

@@ -99,6 +99,7 @@ void TurbulenceOperator::applyWallLaw() {
     rates.source[second] = faster * rate * held;
     rates.sink[second] = faster * rate;
     slopes_[c] = {};
+    for (const std::size_t v : {energy, second}) slopes_[c][v][v] = -rates.sink[v];
     if (!isBlended) slopes_[c][second][energy] = power * faster * rate * rate;
   }
 }
