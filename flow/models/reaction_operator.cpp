@@ -1,34 +1,16 @@
 #include "flow/models/reaction_operator.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "chemistry/reactor/reactor_failure.hpp"
 #include "core/errors.hpp"
 #include "core/group_failure.hpp"
 #include "flow/cell_errors.hpp"
-#include "flow/models/asked_again.hpp"
 #include "flow/models/constant_pressure_cells.hpp"
 
 namespace lampblack::flow {
-
-namespace {
-
-// Steps of cells that are coupled with their neighbours: how much their reactions grow in a part, and in how many parts
-// at most, beyond which the step has to be shorter.
-constexpr double growthInPart = 0.8;
-constexpr double outrunning = 1.0;  // growth in a step beyond which cells are coupled
-constexpr int mostParts = 60;
-// Only where a species changes by more than that in a step is it asked how fast its reactions grow.
-constexpr double changeThatCounts = 0.01;
-// A cell that reacts less than that share of what it did when it outran a step is no foot of a flame any more: what is
-// left of its growth rate after a step.
-constexpr double slowShare = 0.25, forgotten = 0.8;
-
-}  // namespace
 
 ReactionOperator::ReactionOperator(const FlowContext& context, const Options& options)
     : ReactionOperator(context, options,
@@ -150,71 +132,6 @@ void ReactionOperator::limitRates(State& state, std::size_t cell) {
   isLimited_[cell] = 1.0;
 }
 
-bool ReactionOperator::findOutrunning(const State& state, double dt) {
-  begin(dt);
-  const auto n = static_cast<std::size_t>(state.species);
-  std::ranges::fill(outruns_, 0);
-  std::ranges::fill(isTaken_, 0);
-  std::array<double, 2> largestOf{0.0, 0.0};
-  for (std::size_t cell = 0; cell < outruns_.size(); ++cell) {
-    const double* rate = &state.balance.reactions[cell * n];
-    double largest = 0.0;
-    for (std::size_t k = 0; k < n; ++k) largest = std::max(largest, std::abs(rate[k]));
-    double& grows = grows_[cell];
-    const double change = largest / state.density[cell] * dt;
-    if (change < changeThatCounts && isLimited_[cell] == 0.0) {
-      grows = fastest_[cell] = askedChange_[cell] = 0.0;
-      continue;
-    }
-    const bool isDue = AskedAgain::isDue(change, askedChange_[cell], unasked_[cell]);
-    if (grows == 0.0 && !isDue) continue;
-    const CellMixing mixing = mixingOf(cell);
-    double growth = growthRate_.of(state.temperature[cell], state.thermodynamicPressure, {&state.Y[cell * n], n}, dt,
-                                   mixing.reactingShare);
-    // Nothing in a cell goes faster than its fine structures mix with it.
-    if (mixing.fineTime > 0.0) growth = std::min(growth, mixing.reactingShare / mixing.fineTime);
-    double& fastest = fastest_[cell];
-    const double speed = largest / state.density[cell];
-    grows = std::max(growth, speed < slowShare * fastest ? forgotten * grows : grows);
-    outruns_[cell] = grows * dt > outrunning;
-    fastest = outruns_[cell] ? std::max(fastest, speed) : 0.0;
-    largestOf[0] = std::max(largestOf[0], grows);
-    largestOf[1] = std::max(largestOf[1], growth);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, largestOf.data(), 2, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
-  growth_ = largestOf[0];
-  growthInStep_ = largestOf[1] * dt;
-  parts_ = std::clamp(static_cast<int>(std::ceil(growth_ * dt / growthInPart)), 2, mostParts);
-  return growth_ * dt > outrunning;
-}
-
-double ReactionOperator::largestStep(const State&) {
-  return growth_ > 0.0 ? growthInPart * mostParts / growth_ : std::numeric_limits<double>::infinity();
-}
-
-void ReactionOperator::react(std::span<CoupledCells::Reacting> cells, double time, double part) {
-  std::vector<SharedCellWork::Item> items;
-  for (const CoupledCells::Reacting& cell : cells) {
-    const int local = context_.mesh.findOwned(cell.number);
-    items.push_back({local, cell.cost > 0.0 ? cell.cost : work_.expectedCost(local)});
-  }
-  Work work = workOver(part);
-  work.pack = [&](std::size_t item, RowWriter rows) {
-    rows.add(cells[item].Y);
-    rows.add(cells[item].source);
-    return cells[item].gas;
-  };
-  work.unpack = [&](std::size_t item, const CellReactor::Result& result, std::span<const double> Y) {
-    CoupledCells::Reacting& cell = cells[item];
-    cell.gas.temperature = result.temperature;
-    cell.gas.firstStep = result.firstStep;
-    cell.cost = result.cost;
-    std::ranges::copy(Y, cell.Y.begin());
-    count(result);
-  };
-  work_.advance(items, time, work, SharedCellWork::Over::Part);
-}
-
 // Called by whatever comes first in a step.
 void ReactionOperator::begin(double dt) {
   work_.beginStep();
@@ -318,83 +235,9 @@ void ReactionOperator::endStep(State& state) {
   step_ = 0.0;
 }
 
-// What a step begins with is the state: endStep() takes it from there after loading.
-void ReactionOperator::saveOrLoad(StateArchive& archive) {
-  if (archive.loading()) {  // of a step that was broken off
-    step_ = 0.0;
-    std::ranges::fill(isTaken_, 0);
-  }
-  work_.saveOrLoad(archive);
-  archive.cells("chemistry_first_step", initialStep_, 1);
-  archive.cells("chemistry_rate_is_limited", isLimited_, 1);
-  archive.cells("heat_release", heatRelease_, 1);
-  archive.cells("reaction_growth", grows_, 1);
-  archive.cells("reaction_speed", fastest_, 1);
-  archive.cells("reaction_change_when_asked", askedChange_, 1);
-  archive.cells("reaction_steps_unasked", unasked_, 1);
-  std::array<double, 7> counted{diagnostics_.solverSteps,     diagnostics_.integratedCells, diagnostics_.skippedCells,
-                                diagnostics_.handedOverCells, diagnostics_.retries,         diagnostics_.coupledCells,
-                                diagnostics_.limitedCells};
-  archive.sums("chemistry_counts", counted);
-  diagnostics_.imbalance.saveOrLoad(archive, "chemistry_imbalance_since_row");
-  diagnostics_ = {counted[0], counted[1], counted[2], counted[3],
-                  counted[4], counted[5], counted[6], diagnostics_.imbalance};
-  archive.shared("reaction_largest_growth", growth_);
-  archive.shared("reaction_growth_in_step", growthInStep_);
-}
-
 void ReactionOperator::setRates(State& state, std::span<const double> rates) {
   state.balance.reactions.assign(rates.begin(), rates.end());
   std::ranges::fill(isLimited_, 0.0);
-}
-
-ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
-  Diagnostics all = diagnostics_;
-  double sums[7] = {all.solverSteps, all.integratedCells, all.skippedCells, all.handedOverCells,
-                    all.retries,     all.limitedCells,    all.coupledCells};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 7, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
-  all.solverSteps = sums[0];
-  all.integratedCells = sums[1];
-  all.skippedCells = sums[2];
-  all.handedOverCells = sums[3];
-  all.retries = sums[4];
-  all.limitedCells = sums[5];
-  all.coupledCells = sums[6];
-  diagnostics_ = {};
-  return all;
-}
-
-std::vector<Quantity> ReactionOperator::historyColumns() const {
-  return {{"stiff_solver_steps", "1", "internal steps of the stiff solver over all cells since the last row"},
-          {"reacting_cells", "1", "cells integrated since the last row, over all stages"},
-          {"skipped_cells", "1", "cells skipped for negligible rates since the last row, over all stages"},
-          {"cells_by_cvode", "1", "cells for which the Rosenbrock method's few steps did not do, over all stages"},
-          {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
-          {"limited_rate_cells", "1",
-           "cells that reacted so fast that the next step's transport took less of it, over all steps"},
-          {"coupled_cells", "1", "cells whose reactions outran a step, with those around, over all steps"},
-          {"reaction_growth", "1",
-           "largest growth rate of the reactions in a cell times the last step; zero where it is below 0.9"},
-          {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
-          {"imbalance_after", "1", "the same as it turned out, with work sharing"}};
-}
-
-std::vector<double> ReactionOperator::historyValues(const State&) {
-  const Diagnostics d = takeDiagnostics();
-  const Imbalance mean = d.imbalance.mean();
-  return {d.solverSteps,  d.integratedCells, d.skippedCells, d.handedOverCells, d.retries,
-          d.limitedCells, d.coupledCells,    growthInStep_,  mean.before,       mean.after};
-}
-
-std::vector<double> ReactionOperator::heatReleases(const State& state) const {
-  std::vector<double> heat = heatRelease_, enthalpies(static_cast<std::size_t>(state.species));
-  for (std::size_t cell = 0; cell < heat.size(); ++cell)
-    if (isLimited_[cell] == 0.0) heat[cell] = heatRelease(context_, state, cell, enthalpies);
-  return heat;
-}
-
-void ReactionOperator::fields(const State& state, const FieldSink& sink) const {
-  sink({"heat_release", "W/m^3", "heat set free by the gas reactions, mean of the last step"}, heatReleases(state));
 }
 
 }  // namespace lampblack::flow
