@@ -85,7 +85,6 @@ void ReactionOperator::take(State& state, std::size_t cell, double dt, const Cel
   removeNetMass(state, cell);
   state.temperature[cell] = result.temperature;
   initialStep_[cell] = result.firstStep;
-  count(result);
 }
 
 void ReactionOperator::count(const CellReactor::Result& result) {
@@ -140,6 +139,20 @@ void ReactionOperator::begin(double dt) {
 
 void ReactionOperator::advance(State& state, double time, double dt) {
   begin(dt);
+  std::vector<int> cells;
+  for (int cell = 0; cell < context_.mesh.owned; ++cell)
+    if (!isTaken_[static_cast<std::size_t>(cell)]) cells.push_back(cell);
+  if (options_.map)
+    advanceMapped(state, time, dt, cells);
+  else
+    advanceCells(state, time, dt, cells, [&](int cell, const CellReactor::Result& result, std::span<const double> Y) {
+      take(state, static_cast<std::size_t>(cell), dt, result, Y);
+    });
+  state.updateHalo(context_.halo);
+}
+
+void ReactionOperator::advanceCells(const State& state, double time, double dt, std::span<const int> cells,
+                                    const TakeCell& takeCell) {
   const auto n = static_cast<std::size_t>(state.species);
   const bool isFirst = state.start.Y.empty();  // no step was taken: there is but the present state
   const std::vector<double>& startY = isFirst ? state.Y : state.start.Y;
@@ -147,12 +160,10 @@ void ReactionOperator::advance(State& state, double time, double dt) {
   const double pressure =
       isFirst ? state.thermodynamicPressure : 0.5 * (state.start.thermodynamicPressure + state.thermodynamicPressure);
   std::vector<SharedCellWork::Item> items;
-  for (int cell = 0; cell < context_.mesh.owned; ++cell)
-    if (!isTaken_[static_cast<std::size_t>(cell)]) items.push_back({cell, work_.expectedCost(cell)});
-  const auto cellOf = [&](std::size_t item) { return static_cast<std::size_t>(items[item].cell); };
+  for (const int cell : cells) items.push_back({cell, work_.expectedCost(cell)});
   Work work = workOver(dt);
   work.pack = [&](std::size_t item, RowWriter rows) -> CellReactor::Gas {
-    const std::size_t cell = cellOf(item);
+    const auto cell = static_cast<std::size_t>(cells[item]);
     const double* Y = &state.Y[cell * n];
     const double* before = &startY[cell * n];
     const std::span<double> values = rows.add(2 * n), start = values.first(n), source = values.last(n);
@@ -166,10 +177,10 @@ void ReactionOperator::advance(State& state, double time, double dt) {
             initialStep_[cell],      mixingOf(cell)};
   };
   work.unpack = [&](std::size_t item, const CellReactor::Result& result, std::span<const double> Y) {
-    take(state, cellOf(item), dt, result, Y);
+    takeCell(cells[item], result, Y);
+    count(result);
   };
   diagnostics_.imbalance.add(work_.advance(items, time, work));
-  state.updateHalo(context_.halo);
 }
 
 double heatRelease(const FlowContext& context, const State& state, std::size_t cell, std::span<double> enthalpies) {

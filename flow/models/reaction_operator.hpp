@@ -24,6 +24,7 @@
 #include "flow/models/cell_reactor.hpp"
 #include "flow/models/combustion/cell_mixing.hpp"
 #include "flow/models/coupled_cells.hpp"
+#include "flow/models/reference_map.hpp"
 #include "flow/models/shared_cell_work.hpp"
 #include "flow/operator.hpp"
 
@@ -41,6 +42,8 @@ class ReactionOperator : public Operator {
     // Keeps a cell that cannot be advanced, on the rank that tried; what it returns is added to the message. Called at
     // most once on each rank, as the first failure ends its work. May be empty.
     std::function<std::string(std::int64_t naturalCell, const FailedCell& failed)> keepFailed;
+    // Cells that take the reactions of others in steps of time; nothing: none do.
+    std::optional<ReferenceMap> map = {};
   };
   struct Diagnostics {  // of all ranks and all stages since the last call of takeDiagnostics()
     double solverSteps = 0.0;
@@ -48,6 +51,7 @@ class ReactionOperator : public Operator {
     double coupledCells = 0.0;  // whose rates were found with their neighbours
     double limitedCells = 0.0;  // whose rates the next transport takes only in part
     MeanImbalance imbalance;
+    MapTally map;
   };
 
   // Closed vessels at constant pressure.
@@ -64,7 +68,11 @@ class ReactionOperator : public Operator {
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
   [[nodiscard]] std::optional<Imbalance> imbalance() const override { return work_.imbalance(); }
-  void beginRun() override { work_.beginRun(); }
+  void beginRun() override {
+    work_.beginRun();
+    mapOfRun_ = {};
+  }
+  [[nodiscard]] std::vector<std::string> closingLines() const override;
   void fields(const State& state, const FieldSink& sink) const override;
   void addCost(const Mesh&, CellCost& cost) const override { work_.addCost(cost); }
   Diagnostics takeDiagnostics();  // collective
@@ -110,6 +118,13 @@ class ReactionOperator : public Operator {
   void solve(double dt, std::span<const SharedCellWork::Task<CellReactor::Gas>> tasks,
              std::span<CellReactor::Result> results, std::span<RowWriter> rows);
   void take(State& state, std::size_t cell, double dt, const CellReactor::Result& result, std::span<const double> Y);
+  // What comes of the reactions of an owned cell by themselves.
+  using TakeCell = std::function<void(int cell, const CellReactor::Result& result, std::span<const double> Y)>;
+  void advanceCells(const State& state, double time, double dt, std::span<const int> cells, const TakeCell& take);
+  void advanceMapped(State& state, double time, double dt, std::span<const int> cells);
+  [[nodiscard]] std::optional<CellReactor::Result> takeFromOther(State& state, std::size_t cell, double dt,
+                                                                 std::span<const double> row,
+                                                                 std::span<double> reacted);
   void count(const CellReactor::Result& result);
   void begin(double dt);
   void removeNetMass(State& state, std::size_t cell);
@@ -135,6 +150,7 @@ class ReactionOperator : public Operator {
   double growthInStep_ = 0.0;            // the largest of the last step's start, times that step
   int parts_ = 1;
   Diagnostics diagnostics_;
+  MapTally mapOfRun_, mapTold_;  // since beginRun(): of this rank, and of all in the last row of the history
 };
 
 }  // namespace lampblack::flow

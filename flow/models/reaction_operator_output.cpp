@@ -1,6 +1,9 @@
 // What the chemistry of a flow keeps from step to step, and what it tells.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "flow/models/reaction_operator.hpp"
 
@@ -25,8 +28,10 @@ void ReactionOperator::saveOrLoad(StateArchive& archive) {
                                 diagnostics_.limitedCells};
   archive.sums("chemistry_counts", counted);
   diagnostics_.imbalance.saveOrLoad(archive, "chemistry_imbalance_since_row");
-  diagnostics_ = {counted[0], counted[1], counted[2], counted[3],
-                  counted[4], counted[5], counted[6], diagnostics_.imbalance};
+  diagnostics_ = {counted[0],      counted[1], counted[2], counted[3],
+                  counted[4],      counted[5], counted[6], diagnostics_.imbalance,
+                  diagnostics_.map};
+  if (options_.map) diagnostics_.map.saveOrLoad(archive, context_.mesh.comm);
   archive.shared("reaction_largest_growth", growth_);
   archive.shared("reaction_growth_in_step", growthInStep_);
 }
@@ -43,30 +48,51 @@ ReactionOperator::Diagnostics ReactionOperator::takeDiagnostics() {
   all.retries = sums[4];
   all.limitedCells = sums[5];
   all.coupledCells = sums[6];
+  if (options_.map) {
+    mapOfRun_.add(all.map);
+    all.map = all.map.overRanks(context_.mesh.comm);
+  }
   diagnostics_ = {};
   return all;
 }
 
 std::vector<Quantity> ReactionOperator::historyColumns() const {
-  return {{"stiff_solver_steps", "1", "internal steps of the stiff solver over all cells since the last row"},
-          {"reacting_cells", "1", "cells integrated since the last row, over all stages"},
-          {"skipped_cells", "1", "cells skipped for negligible rates since the last row, over all stages"},
-          {"cells_by_cvode", "1", "cells for which the Rosenbrock method's few steps did not do, over all stages"},
-          {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
-          {"limited_rate_cells", "1",
-           "cells that reacted so fast that the next step's transport took less of it, over all steps"},
-          {"coupled_cells", "1", "cells whose reactions outran a step, with those around, over all steps"},
-          {"reaction_growth", "1",
-           "largest growth rate of the reactions in a cell times the last step; zero where it is below 0.9"},
-          {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
-          {"imbalance_after", "1", "the same as it turned out, with work sharing"}};
+  std::vector<Quantity> columns{
+      {"stiff_solver_steps", "1", "internal steps of the stiff solver over all cells since the last row"},
+      {"reacting_cells", "1", "cells integrated since the last row, over all stages"},
+      {"skipped_cells", "1", "cells skipped for negligible rates since the last row, over all stages"},
+      {"cells_by_cvode", "1", "cells for which the Rosenbrock method's few steps did not do, over all stages"},
+      {"stiff_solver_retries", "1", "repeated stiff solves since the last row"},
+      {"limited_rate_cells", "1",
+       "cells that reacted so fast that the next step's transport took less of it, over all steps"},
+      {"coupled_cells", "1", "cells whose reactions outran a step, with those around, over all steps"},
+      {"reaction_growth", "1",
+       "largest growth rate of the reactions in a cell times the last step; zero where it is below 0.9"},
+      {"imbalance_before", "1", "busiest rank's chemistry cost over the mean, as partitioned"},
+      {"imbalance_after", "1", "the same as it turned out, with work sharing"}};
+  if (options_.map) {
+    const std::vector<Quantity> ofMap = MapTally::columns();
+    columns.insert(columns.end(), ofMap.begin(), ofMap.end());
+  }
+  return columns;
 }
 
 std::vector<double> ReactionOperator::historyValues(const State&) {
   const Diagnostics d = takeDiagnostics();
   const Imbalance mean = d.imbalance.mean();
-  return {d.solverSteps,  d.integratedCells, d.skippedCells, d.handedOverCells, d.retries,
-          d.limitedCells, d.coupledCells,    growthInStep_,  mean.before,       mean.after};
+  std::vector<double> values{d.solverSteps,  d.integratedCells, d.skippedCells, d.handedOverCells, d.retries,
+                             d.limitedCells, d.coupledCells,    growthInStep_,  mean.before,       mean.after};
+  if (options_.map) {
+    const std::vector<double> ofMap = d.map.values();
+    values.insert(values.end(), ofMap.begin(), ofMap.end());
+    mapTold_ = mapOfRun_.overRanks(context_.mesh.comm);
+  }
+  return values;
+}
+
+std::vector<std::string> ReactionOperator::closingLines() const {
+  if (!options_.map) return {};
+  return {mapTold_.line()};
 }
 
 std::vector<double> ReactionOperator::heatReleases(const State& state) const {

@@ -126,6 +126,14 @@ TEST(TurbulenceCase, KnowsTheMixtureFractionOfTwoStreams) {
       said("output.mixture_fraction.fuel=feul", air),
       AllOf(HasSubstr("output.mixture_fraction.fuel"), HasSubstr("'feul' is no boundary"), HasSubstr("oxidiser")));
   EXPECT_THAT(said("output.mixture_fraction.fuel=oxidiser", air), HasSubstr("no mixture fraction between them"));
+  EXPECT_THAT(said("chemistry.reference_map.fuel=fuel", "chemistry.reference_map.oxidizer=feul"),
+              HasSubstr("chemistry.reference_map.oxidizer"));
+  const FlowCase mapped = readFlowCase(test::flameDeck(
+      {"chemistry.reference_map={fuel: fuel, oxidizer: oxidiser, temperature: 7 K, mixture_fraction: 0.5}"}));
+  ASSERT_TRUE(mapped.chemistry.map.has_value());
+  const std::vector<double>& Y = mapped.boundaries.front().Y;
+  EXPECT_EQ(mapped.chemistry.map->binOf(701.0, 1.0, Y), mapped.chemistry.map->binOf(698.0, 1.0, Y));
+  EXPECT_NE(mapped.chemistry.map->binOf(701.0, 1.0, Y), mapped.chemistry.map->binOf(705.0, 1.0, Y));
 }
 
 TEST(TurbulenceCase, OfSwirlTellsWhatModelsDoNotKnow) {

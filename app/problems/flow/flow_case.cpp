@@ -317,26 +317,6 @@ void readTrajectories(const Deck& deck, FlowCase& flowCase) {
 
 }  // namespace
 
-DeckKeys<ReactionOperator::Options> flowcase::chemistryKeys() {
-  using Options = ReactionOperator::Options;
-  using Reactor = ConstantPressureReactor::Options;
-  DeckKeys<Options> keys("chemistry");
-  keys.boolean("share_work", &Options::shareWork, rules().byDefault("true"),
-               "Whether cells with costly chemistry are sent to less busy ranks.");
-  keys.number("relative_tolerance", inner(&Options::reactor, &Reactor::relativeTolerance),
-              rules().byDefault("1e-6").above(0).below(1),
-              "Relative tolerance of the stiff solver of the chemistry: smaller is more accurate and slower.");
-  keys.integer("rosenbrock_steps", inner(&Options::reactor, &Reactor::rosenbrockSteps),
-               rules().byDefault("10").atLeast(0).atMost(1000),
-               "Steps of a Rosenbrock method in which the chemistry of a cell has to be done, four times as many in "
-               "vector lanes; a cell that needs more is integrated by CVODE. 0: CVODE for all cells.");
-  keys.number("absolute_tolerance", inner(&Options::reactor, &Reactor::absoluteTolerance),
-              rules().byDefault("1e-12").above(0).below(1),
-              "Absolute tolerance of the stiff solver of the chemistry, in mass fraction: smaller is more accurate and "
-              "slower.");
-  return keys;
-}
-
 FlowCase readFlowCase(const Deck& deck) {
   FlowCase flowCase;
   flowCase.title = deck.string("title");
@@ -346,7 +326,7 @@ FlowCase readFlowCase(const Deck& deck) {
   readMesh(deck, flowCase);
   flowCase.transport = readTransport(deck, *flowCase.mechanism);
   readBoundaries(deck, flowCase);
-  flowCase.chemistry = chemistryKeys().read(deck);
+  readChemistry(deck, flowCase);
   readSoot(deck, flowCase);
   readTurbulenceModel(deck, flowCase);
   readInitial(deck, flowCase);

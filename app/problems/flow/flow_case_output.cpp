@@ -77,15 +77,18 @@ DeckKeys<CheckpointControl> stepsBetweenCheckpoints() {
   return keys;
 }
 
-void readMixtureFraction(const Deck& deck, FlowCase& flowCase) {
-  const std::string section = "output.mixture_fraction";
-  if (!deck.has(section)) return;
-  const auto& fuel = streamNamed(deck, section + ".fuel", flowCase);
-  const auto& oxidizer = streamNamed(deck, section + ".oxidizer", flowCase);
-  deck.at(section, [&] { flowCase.output.mixtureFraction.emplace(*flowCase.mechanism, fuel, oxidizer); });
+}  // namespace
+
+void addStreamKeys(SectionKeys& keys, const std::string& section) {
+  keys.text(joinedPath(section, "fuel"), rules(), "Inlet or outlet whose gas has a mixture fraction of one.");
+  keys.text(joinedPath(section, "oxidizer"), rules(), "Inlet or outlet whose gas has a mixture fraction of zero.");
 }
 
-}  // namespace
+MixtureFraction readMixtureFraction(const Deck& deck, const std::string& section, const FlowCase& flowCase) {
+  const auto& fuel = streamNamed(deck, section + ".fuel", flowCase);
+  const auto& oxidizer = streamNamed(deck, section + ".oxidizer", flowCase);
+  return deck.at(section, [&] { return MixtureFraction(*flowCase.mechanism, fuel, oxidizer); });
+}
 
 std::string fileNameOf(std::string name) {
   for (char& c : name)
@@ -107,8 +110,7 @@ void addOutputKeys(DeckSchema& schema) {
                "wall_distance. Boundaries of the type wall count.");
   keys.section("mixture_fraction", Presence::optional,
                "Bilger's mixture fraction as a field of the results, mixture_fraction, by two streams of the deck.");
-  keys.text("mixture_fraction.fuel", rules(), "Inlet or outlet whose gas has a mixture fraction of one.");
-  keys.text("mixture_fraction.oxidizer", rules(), "Inlet or outlet whose gas has a mixture fraction of zero.");
+  addStreamKeys(keys, "mixture_fraction");
   keys.integer(
       "compression", rules().byDefault("0").atLeast(0).atMost(FileStorage::mostCompression),
       "How hard the fields of results.h5 are compressed, from 1, fast, to 9, small; 0: not at all. No value changes.");
@@ -150,7 +152,8 @@ void readOutput(const Deck& deck, FlowCase& flowCase) {
     throw deck.error("output.wall_distance", "no boundary of this deck is a wall; expected false");
   if (output.wallDistance && flowCase.turbulence.ignoresWalls)
     throw deck.error("output.wall_distance", "expected false where 'turbulence.wall_distance' is infinite");
-  readMixtureFraction(deck, flowCase);
+  const std::string mixture = "output.mixture_fraction";
+  if (deck.has(mixture)) flowCase.output.mixtureFraction = readMixtureFraction(deck, mixture, flowCase);
   output.storage = {deck.integer<int>("output.compression"), deck.optionalInteger<int>("output.writers").value_or(0)};
   output.species = readSpeciesList(deck, "output.species", *flowCase.mechanism);
   static_cast<CheckpointTimes&>(flowCase.checkpoint) = checkpointKeys("a later end").read(deck);

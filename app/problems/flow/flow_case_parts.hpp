@@ -69,7 +69,14 @@ void readTurbulenceModel(const Deck& deck, FlowCase& flowCase);
 void addCombustionKeys(DeckSchema& schema);
 void readCombustion(const Deck& deck, FlowCase& flowCase);
 
-DeckKeys<ReactionOperator::Options> chemistryKeys();
+// Keys of a section (below that of `keys`) that names two streams, and the mixture fraction between them when the
+// boundaries have been read.
+void addStreamKeys(SectionKeys& keys, const std::string& section);
+MixtureFraction readMixtureFraction(const Deck& deck, const std::string& section, const FlowCase& flowCase);
+
+// The section chemistry: its keys, and reading it when the boundaries have been read.
+void addChemistryKeys(DeckSchema& schema);
+void readChemistry(const Deck& deck, FlowCase& flowCase);
 
 // The section output: its keys, and reading it when mesh, boundaries and times have been read.
 void addOutputKeys(DeckSchema& schema);

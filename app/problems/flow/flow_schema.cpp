@@ -246,7 +246,7 @@ DeckSchema flowSchema() {
   flowcase::addCombustionKeys(keys.schema());
   flowcase::addTimeKeys(keys.schema());
   addConvectionAndOutput(keys.schema());
-  keys.schema().add(flowcase::chemistryKeys().schema());
+  flowcase::addChemistryKeys(keys.schema());
   addTransportKeys(keys.schema());
   addParticles(keys.schema());
   return keys.schema();
