@@ -111,13 +111,13 @@ void EnsembleTransport::findDensities(const Gas& gas, double part) {
 }
 
 // Through the layer beside a wall; `share`: s/kg, of the cell's mass in a part of a step.
-void EnsembleTransport::findWallDiffusion(const Gas& gas, int cell, double share, Side& side) {
+void EnsembleTransport::findWallDiffusion(const Gas& gas, int cell, double share, int face, std::size_t side) {
   const double* here = diffusivityOf(gas, cell);
   for (std::size_t node = firstNode_; node < endNode_; ++node) {
     const double perSquare = nodes_[node].perSquare;
-    side.diffusion[node] = share / perSquare *
-                           conductanceToWall(context_, gas.state, gas.properties, side.face, gas.faceDensity[side.face],
-                                             here[node] * perSquare);
+    lanes_->diffusion[node][side] =
+        share / perSquare *
+        conductanceToWall(context_, gas.state, gas.properties, face, gas.faceDensity[face], here[node] * perSquare);
   }
 }
 
@@ -128,18 +128,22 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
   const double* slopes = &gradients_[static_cast<std::size_t>(cell) * width * static_cast<std::size_t>(m.dimension)];
   const double* velocity = &gas.state.velocity[static_cast<std::size_t>(cell) * m.dimension];
   sides.clear();
+  lanes_->hasWall = false;
   for (int i = m.faceStart[cell]; i < m.faceStart[cell + 1]; ++i) {
     const int face = m.faceOfCell[i];
     if (m.area[face] <= 0.0) continue;
     const bool isLow = m.low[face] == cell;
     const double out = outflow(gas, face, cell) * dt / mass, convected = std::max(out, 0.0);
-    Side side;
+    const double stirred = stirredThrough(gas, face) * dt / mass;
+    if (!(convected > 0.0) && !diffuses(face) && !(stirred > 0.0)) continue;
+    const std::size_t place = sides.size();
+    Side& side = sides.emplace_back();
     side.face = face;
     side.beyond = isLow ? m.high[face] : m.low[face];
     side.diffuses = diffuses(face);
-    side.stirred = stirredThrough(gas, face) * dt / mass;
-    if (!(convected > 0.0) && !side.diffuses && !(side.stirred > 0.0)) continue;
     side.isWall = side.beyond < 0 && context_.takesParticles(face);
+    lanes_->stirred[place] = stirred;
+    lanes_->hasWall = lanes_->hasWall || side.isWall;
     side.drift = out;
     if (side.isWall) side.eddies = eddiesToWall(context_, gas.state, gas.properties, face).resistance * mass / dt;
     const Vector3 toFace = difference(m.faceCentreOf(cell, face), m.centre[cell]);
@@ -153,19 +157,22 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
         side.isLimited[k] = ratio < 0.0 || ratio > 2.0;
         ratio = std::clamp(ratio, 0.0, 2.0);
       }
-      side.convected[k] = convected * (side.isWall ? ratio - 1.0 : ratio);
+      lanes_->convected[k][place] = convected * (side.isWall ? ratio - 1.0 : ratio);
     }
+    const bool mixes = !side.isWall && (side.diffuses || stirred > 0.0);
+    for (const int k : moving_) lanes_->diffused[k][place] = mixes ? 1.0 : 0.0;
+    if (!side.diffuses)
+      for (std::size_t node = firstNode_; node < endNode_; ++node) lanes_->diffusion[node][place] = 0.0;
     if (side.isWall) {
-      if (side.diffuses) findWallDiffusion(gas, cell, dt / mass, side);
-    } else if (side.diffuses || side.stirred > 0.0) {
+      if (side.diffuses) findWallDiffusion(gas, cell, dt / mass, face, place);
+    } else if (mixes) {
       if (side.diffuses) {
         const double through = dt / mass * gas.faceDensity[face] * m.area[face] / m.distance[face];
         const double own = isLow ? m.lowWeight[face] : 1.0 - m.lowWeight[face];
         const double *here = diffusivityOf(gas, cell), *there = diffusivityOf(gas, side.beyond);
         for (std::size_t node = firstNode_; node < endNode_; ++node)
-          side.diffusion[node] = through * (own * here[node] + (1.0 - own) * there[node]);
+          lanes_->diffusion[node][place] = through * (own * here[node] + (1.0 - own) * there[node]);
       }
-      side.diffused.fill(1.0);
       if (m.isOblique())
         for (std::size_t j = 0; j < width; ++j) {
           const int k = moving_[j];
@@ -176,10 +183,9 @@ void EnsembleTransport::findSides(const Gas& gas, int cell, double dt, double ma
               faceSlope(m, face, m.oblique[face], gradients_, static_cast<int>(width), static_cast<int>(j)) /
               present[j];
           side.isLimited[k] = side.isLimited[k] || std::abs(skew) > 1.0;
-          side.diffused[k] = std::clamp(1.0 - (isLow ? skew : -skew), 0.0, 2.0);
+          lanes_->diffused[k][place] = std::clamp(1.0 - (isLow ? skew : -skew), 0.0, 2.0);
         }
     }
-    sides.push_back(side);
   }
 }
 

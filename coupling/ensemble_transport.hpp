@@ -111,7 +111,7 @@ class EnsembleTransport {
   void findBoundaries(const Gas& gas);
   void findDensities(const Gas& gas, double part);
   void findSides(const Gas& gas, int cell, double dt, double mass, std::vector<Side>& sides);
-  void findWallDiffusion(const Gas& gas, int cell, double share, Side& side);
+  void findWallDiffusion(const Gas& gas, int cell, double share, int face, std::size_t side);
   [[nodiscard]] double outflow(const Gas& gas, int face, int cell) const;
   // Whether particles diffuse through a face by themselves.
   [[nodiscard]] bool diffuses(int face) const;

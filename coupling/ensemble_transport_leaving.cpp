@@ -94,7 +94,7 @@ double EnsembleTransport::sumChances(const Size& size, const std::vector<Side>& 
   upTo = lanes_->chances(size);
   if (lanes_->hasWall)
     for (std::size_t s = 0; s < sides.size(); ++s)
-      if (sides[s].isWall) upTo[s] = sides[s].toWall(size.ofClass, size.at, size.perSquare);
+      if (sides[s].isWall) upTo[s] = lanes_->toWall(s, sides[s], size);
   double sum = 0.0;
   for (std::size_t s = 0; s < sides.size(); ++s) upTo[s] = sum += lengths_[size.ofClass] * upTo[s];
   return sum;
@@ -107,14 +107,9 @@ void EnsembleTransport::boundChances(const std::vector<Side>& sides, std::span<d
   for (std::size_t node = 0; node < nodes; ++node) {
     const auto [diameter, perSquare, k] = nodes_[node];
     if (lengths_[k] == 0.0) continue;
-    for (const Side& side : sides) {
-      if (side.isWall) {
-        bounds[node] += side.mostToWall(k, node, perSquare);
-        continue;
-      }
-      const double most = std::max(side.diffusion[node], side.diffusion[std::min(node + 1, nodes - 1)]);
-      bounds[node] += side.convected[k] + side.diffused[k] * (side.stirred + perSquare * most);
-    }
+    const SideValues most = lanes_->mostChances(k, node, perSquare);
+    for (std::size_t s = 0; s < sides.size(); ++s)
+      bounds[node] += sides[s].isWall ? lanes_->mostToWall(s, sides[s], k, node, perSquare) : most[s];
     bounds[node] *= lengths_[k];
   }
 }
@@ -135,7 +130,6 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
   if (sides.empty()) return;
   Content& content = contents_[cell];
   Draw draw{cell, sides, content, {}, {}, content.whole(), random.uniform()};
-  lanes_->set(sides, moving_, firstNode_, endNode_);
   for (const Side& side : sides)
     for (std::size_t k = 0; k < draw.isLimited.size(); ++k) draw.isLimited[k] = draw.isLimited[k] || side.isLimited[k];
   for (std::size_t k = 0; k < draw.isLimited.size(); ++k)

@@ -45,59 +45,30 @@ inline int EnsembleTransport::classOf(double volume) {
   return std::clamp((exponentOf(volume) - smallest) / 3, 0, classes - 1);
 }
 
-// One of a cell's faces, as its particles see it, in one part of a step. A class that takes several parts together has
-// so many times these probabilities.
+// One of a cell's faces, as its particles see it, in one part of a step. What depends on the particles stands in
+// SideLanes, in the same place.
 struct EnsembleTransport::Side {
-  int face = 0, beyond = -1;                // the cell on the other side, or -1
-  std::array<double, classes> convected{};  // probability to go with the gas
-  std::array<double, classes> diffused{};   // factor of `diffusion` and of `stirred`: o
-  std::array<double, nodes> diffusion{};    // times d^2, m2: at the nodes
+  int face = 0, beyond = -1;  // the cell on the other side, or -1
   bool diffuses = false;
-  double stirred = 0.0;  // probability to go with the eddies
   // A wall that takes particles: `drift` is the probability to drift to it with the value of the cell, or below zero;
   // `convected` how much more of it particles have that follow the slope in the cell.
   bool isWall = false;
   double drift = 0.0;
   double eddies = 0.0;                    // before its layer: resistance of the eddies, over a probability
   std::array<bool, classes> isLimited{};  // whether convected or diffused is
-
-  // To a wall: of a particle of that volume and class, and no less than that of any up to the next node.
-  [[nodiscard]] double toWall(int k, const Between& at, double perSquare) const {
-    const double through =
-        diffuses ? perSquare * (diffusion[at.node] + at.part * (diffusion[at.node + 1] - diffusion[at.node])) : 0.0;
-    const double taken = takenByWall(drift, through);
-    return eddies > 0.0 ? taken * behindEddies(taken, eddies) : taken + outsideWallLayer(drift, through) * convected[k];
-  }
-  [[nodiscard]] double mostToWall(int k, std::size_t node, double perSquare) const {
-    const double through =
-        diffuses ? perSquare * std::max(diffusion[node], diffusion[std::min(node + 1, nodes - 1)]) : 0.0;
-    const double taken = takenByWall(drift, through);
-    return eddies > 0.0 ? taken * behindEddies(taken, eddies) : taken + std::max(convected[k], 0.0);
-  }
 };
 
-// The sides of a cell beside one another, for loops that are compiled to vector instructions: those that are no walls.
+// The sides of a cell beside one another, for loops that are compiled to vector instructions. A class that takes
+// several parts together has so many times these probabilities. Of classes that move, and nodes that these ask for.
 struct EnsembleTransport::SideLanes {
   using Lanes = SideValues;
-  std::array<Lanes, classes> convected{}, diffused{};
-  std::array<Lanes, nodes> diffusion{};
-  Lanes stirred{};
+  std::array<Lanes, classes> convected{};  // probability to go with the gas
+  std::array<Lanes, classes> diffused{};   // factor of `diffusion` and of `stirred`: o
+  std::array<Lanes, nodes> diffusion{};    // times d^2, m2: at the nodes
+  Lanes stirred{};                         // probability to go with the eddies
   bool hasWall = false;
 
-  // Of these classes and nodes.
-  void set(const std::vector<Side>& sides, std::span<const int> moving, std::size_t first, std::size_t end) {
-    hasWall = std::ranges::any_of(sides, &Side::isWall);
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-      const Side& side = sides[s];
-      for (const int k : moving) {
-        convected[k][s] = side.convected[k];
-        diffused[k][s] = side.diffused[k];
-      }
-      stirred[s] = side.stirred;
-      for (std::size_t node = first; node < end; ++node) diffusion[node][s] = side.diffusion[node];
-    }
-  }
-  // The probability to leave through each of them.
+  // The probability to leave through each of them, but for walls.
   [[nodiscard]] Lanes chances(const Size& size) const {
     const Lanes &low = diffusion[size.at.node], &high = diffusion[size.at.node + 1];
     const Lanes &gas = convected[size.ofClass], &own = diffused[size.ofClass];
@@ -105,6 +76,28 @@ struct EnsembleTransport::SideLanes {
     for (std::size_t s = 0; s < all.size(); ++s)
       all[s] = gas[s] + own[s] * (stirred[s] + size.perSquare * (low[s] + size.at.part * (high[s] - low[s])));
     return all;
+  }
+  // No less than that of any between a node and the next.
+  [[nodiscard]] Lanes mostChances(int k, std::size_t node, double perSquare) const {
+    const Lanes &low = diffusion[node], &high = diffusion[std::min(node + 1, nodes - 1)];
+    Lanes all;
+    for (std::size_t s = 0; s < all.size(); ++s)
+      all[s] = convected[k][s] + diffused[k][s] * (stirred[s] + perSquare * std::max(low[s], high[s]));
+    return all;
+  }
+  // To the wall that is side s: of a particle, and no less than that of any up to the next node.
+  [[nodiscard]] double toWall(std::size_t s, const Side& side, const Size& size) const {
+    const double low = diffusion[size.at.node][s], high = diffusion[size.at.node + 1][s];
+    const double through = side.diffuses ? size.perSquare * (low + size.at.part * (high - low)) : 0.0;
+    const double taken = takenByWall(side.drift, through);
+    return side.eddies > 0.0 ? taken * behindEddies(taken, side.eddies)
+                             : taken + outsideWallLayer(side.drift, through) * convected[size.ofClass][s];
+  }
+  [[nodiscard]] double mostToWall(std::size_t s, const Side& side, int k, std::size_t node, double perSquare) const {
+    const double through =
+        side.diffuses ? perSquare * std::max(diffusion[node][s], diffusion[std::min(node + 1, nodes - 1)][s]) : 0.0;
+    const double taken = takenByWall(side.drift, through);
+    return side.eddies > 0.0 ? taken * behindEddies(taken, side.eddies) : taken + std::max(convected[k][s], 0.0);
   }
 };
 
