@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -48,74 +49,95 @@ class PairMerging {
 
   // Room that is kept.
   std::vector<std::uint32_t> order_, other_;
-  struct Pair {
-    std::uint32_t loss;   // the bits of a float from zero on, which are in its order
-    std::uint32_t lower;  // place in the order
+  struct Keyed {
+    std::uint32_t key, place;
   };
-  std::vector<Pair> pairs_;
+  std::vector<Keyed> keyed_, otherKeyed_;
+  std::vector<double> weights_;            // in the order
+  std::vector<std::uint32_t> logarithms_;  // likewise
+  // Of each with the next one: the bits of a float from zero on, which are in its order.
+  static constexpr std::uint32_t tooHeavy = ~0U;
+  std::vector<std::uint32_t> losses_;
   std::vector<char> gone_;
 };
 
-// By the upper 24 bits of the logarithm (three parts in 1e5), eight at a time.
+// By the upper 24 bits of the logarithm (three parts in 1e5), seven of its distance from the least at a time.
 template <ParticleType Type>
 void PairMerging<Type>::sort(const PairPopulation<Type>& population) {
+  constexpr unsigned digit = 7;
+  constexpr std::uint32_t digits = 1U << digit;
   const std::size_t n = population.size();
-  order_.resize(n);
-  other_.resize(n);
-  for (std::size_t k = 0; k < n; ++k) order_[k] = static_cast<std::uint32_t>(k);
-  for (const unsigned shift : {8U, 16U, 24U}) {
-    std::array<std::uint32_t, 257> first{};
-    for (std::size_t k = 0; k < n; ++k) ++first[((logarithm(population.row(k)) >> shift) & 255U) + 1];
-    for (std::size_t b = 1; b < first.size(); ++b) first[b] += first[b - 1];
-    for (const std::uint32_t k : order_) other_[first[(logarithm(population.row(k)) >> shift) & 255U]++] = k;
-    order_.swap(other_);
+  keyed_.resize(n);
+  otherKeyed_.resize(n);
+  std::uint32_t least = ~0U, most = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::uint32_t key = logarithm(population.row(k)) >> 8U;
+    keyed_[k] = {key, static_cast<std::uint32_t>(k)};
+    least = std::min(least, key);
+    most = std::max(most, key);
   }
+  for (unsigned shift = 0; (most - least) >> shift > 0; shift += digit) {
+    std::array<std::uint32_t, digits> first{};
+    for (const Keyed& one : keyed_) ++first[((one.key - least) >> shift) % digits];
+    std::uint32_t begin = 0;
+    for (std::uint32_t& count : first) begin += std::exchange(count, begin);
+    for (const Keyed& one : keyed_) otherKeyed_[first[((one.key - least) >> shift) % digits]++] = one;
+    keyed_.swap(otherKeyed_);
+  }
+  order_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) order_[k] = keyed_[k].place;
 }
 
-// Eight bits after the other from the highest on: in each the one up to which the count is reached.
+// Bit after bit from the highest on: the largest below which there are fewer than `count`. Each look at all of them is
+// compiled to vector instructions.
 template <ParticleType Type>
 auto PairMerging<Type>::lossOf(std::size_t count) const -> Loss {
-  std::uint32_t found = 0, known = 0;
-  for (unsigned shift = 32; shift > 0;) {
-    shift -= 8;
-    std::array<std::uint32_t, 256> counts{};
-    for (const Pair& pair : pairs_)
-      counts[(pair.loss >> shift) & 255U] += static_cast<std::uint32_t>((pair.loss & known) == found);
-    std::uint32_t digit = 0;
-    while (digit < 255 && count > counts[digit]) count -= counts[digit++];
-    found |= digit << shift;
-    known |= 255U << shift;
+  const auto below = [this](std::uint32_t loss) {
+    std::uint32_t sum = 0;
+    for (const std::uint32_t one : losses_) sum += one < loss ? 1U : 0U;
+    return static_cast<std::size_t>(sum);
+  };
+  std::uint32_t found = 0;
+  std::size_t less = 0;
+  for (std::uint32_t bit = 1U << 31U; bit > 0; bit >>= 1U) {
+    const std::size_t there = below(found | bit);
+    if (there >= count) continue;
+    found |= bit;
+    less = there;
   }
-  return {found, count};
+  return {found, count - less};
 }
 
 template <ParticleType Type>
 void PairMerging<Type>::mergeOnce(std::size_t excess, double most, PairPopulation<Type>& population) {
   const std::size_t n = order_.size();
-  pairs_.clear();
-  while (pairs_.empty()) {
-    for (std::size_t k = 0; k + 1 < n; ++k) {
-      const Row &a = population.row(order_[k]), &b = population.row(order_[k + 1]);
-      const double weight = a.weight + b.weight;
-      if (weight > most) continue;
-      const double share = a.weight / weight;
-      const auto ratio = static_cast<float>(logarithm(b) - logarithm(a));
-      const float loss = static_cast<float>(share * (1 - share)) * ratio * ratio;
-      pairs_.push_back({std::bit_cast<std::uint32_t>(loss), static_cast<std::uint32_t>(k)});
-    }
-    most *= 2;
+  weights_.resize(n);
+  logarithms_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    weights_[k] = population.row(order_[k]).weight;
+    logarithms_[k] = logarithm(population.row(order_[k]));
   }
-  const std::size_t wanted = std::min(excess, pairs_.size());
-  auto [least, equal] = lossOf(wanted);
+  losses_.resize(n - 1);
+  std::size_t allowed = 0;
+  for (; allowed == 0; most *= 2)
+    for (std::size_t k = 0; k + 1 < n; ++k) {
+      const double weight = weights_[k] + weights_[k + 1], share = weights_[k] / weight;
+      const auto ratio = static_cast<float>(logarithms_[k + 1] - logarithms_[k]);
+      const float loss = static_cast<float>(share * (1 - share)) * ratio * ratio;
+      losses_[k] = weight > most ? tooHeavy : std::bit_cast<std::uint32_t>(loss);
+      allowed += weight > most ? 0U : 1U;
+    }
+  auto [least, equal] = lossOf(std::min(excess, allowed));
   gone_.assign(n, 0);
   std::size_t next = 0;
   const Type& type = population.type();
-  for (const Pair& pair : pairs_) {
-    if (pair.loss > least || (pair.loss == least && equal == 0)) continue;
-    if (pair.loss == least) --equal;
-    if (pair.lower < next) continue;
-    next = pair.lower + 2;
-    const std::uint32_t i = order_[pair.lower], j = order_[pair.lower + 1];
+  for (std::size_t lower = 0; lower + 1 < n; ++lower) {
+    const std::uint32_t loss = losses_[lower];
+    if (loss > least || (loss == least && equal == 0)) continue;
+    if (loss == least) --equal;
+    if (lower < next) continue;
+    next = lower + 2;
+    const std::uint32_t i = order_[lower], j = order_[lower + 1];
     const double wi = population.weight(i), wj = population.weight(j);
     if (population.volume(i) == population.volume(j) && !moreThanVolume<Type>())  // to the last bit
       population.setWeight(i, wi + wj);

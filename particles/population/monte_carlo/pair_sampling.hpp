@@ -21,6 +21,7 @@
 
 #include "core/modules.hpp"
 #include "core/random.hpp"
+#include "numerics/lanes.hpp"
 #include "particles/population/monte_carlo/pair_population.hpp"
 #include "particles/population/monte_carlo/pair_rates.hpp"
 #include "particles/population/population_solver.hpp"
@@ -50,6 +51,7 @@ class PairSampling {
   }
 
  private:
+  using Row = typename PairPopulation<Type>::Row;
   template <class Rate>
   void draw(const Rate& rate, PairPopulation<Type>& population, double time, RandomStream& random,
             PopulationCounters& counters);
@@ -61,7 +63,7 @@ class PairSampling {
   [[gnu::flatten]] void happen(PairPopulation<Type>& population, std::size_t i, std::size_t j, double p, double u,
                                PopulationCounters& counters);
   // Of p: the larger of what the heavier one loses of its weight and the lighter one gains in volume.
-  static double shareOf(const typename PairPopulation<Type>::Row& i, const typename PairPopulation<Type>::Row& j) {
+  static double shareOf(const Row& i, const Row& j) {
     const bool heavier = i.weight >= j.weight;
     const auto &a = heavier ? i : j, &b = heavier ? j : i;
     return std::max(b.weight / a.weight, std::min(1.0, static_cast<double>(a.volume) / static_cast<double>(b.volume)));
@@ -69,6 +71,11 @@ class PairSampling {
   static Particle times(const Type& type, Particle particle, std::uint64_t count);
 
   static constexpr std::size_t together = pairsTogether;
+  // Makes the rates `p` of pairs (m3/s) their probabilities, and has what counts of these (shareOf); returns which of
+  // them happen, a bit each. In vector lanes, to the bits of one alone.
+  static std::uint32_t judge(const Row* rows, const PlacesOfPairs& i, const PlacesOfPairs& j,
+                             const std::array<double, together>& u, double scale, std::array<double, together>& p,
+                             std::array<double, together>& share);
   static constexpr double aim = 0.8;           // of the probability: what is still higher comes between two blocks
   static constexpr double largestShare = 0.7;  // what the highest rate falls to at most from one block to the next
   static constexpr std::size_t leastBlock = 32;
@@ -108,6 +115,32 @@ void PairSampling<Type>::advance(PairPopulation<Type>& population, double time, 
 }
 
 template <ParticleType Type>
+std::uint32_t PairSampling<Type>::judge(const Row* rows, const PlacesOfPairs& i, const PlacesOfPairs& j,
+                                        const std::array<double, together>& u, double scale,
+                                        std::array<double, together>& p, std::array<double, together>& share) {
+  using numerics::Lanes, numerics::loadLanes, numerics::storeLanes;
+  static_assert(numerics::laneCount == together);
+  const auto weights = [rows](const PlacesOfPairs& at) {
+    return Lanes{rows[at[0]].weight, rows[at[1]].weight, rows[at[2]].weight, rows[at[3]].weight,
+                 rows[at[4]].weight, rows[at[5]].weight, rows[at[6]].weight, rows[at[7]].weight};
+  };
+  const auto volumes = [rows](const PlacesOfPairs& at) {
+    return Lanes{rows[at[0]].volume, rows[at[1]].volume, rows[at[2]].volume, rows[at[3]].volume,
+                 rows[at[4]].volume, rows[at[5]].volume, rows[at[6]].volume, rows[at[7]].volume};
+  };
+  const Lanes wi = weights(i), wj = weights(j), vi = volumes(i), vj = volumes(j), one = Lanes{} + 1.0;
+  const auto isHeavier = wi >= wj;
+  const Lanes heavy = isHeavier ? wi : wj, light = isHeavier ? wj : wi;
+  const Lanes grown = isHeavier ? vi / vj : vj / vi, lost = light / heavy, most = grown < one ? grown : one;
+  storeLanes(share.data(), lost > most ? lost : most);
+  const Lanes chance = loadLanes(p.data()) * heavy * scale;
+  storeLanes(p.data(), chance);
+  for (std::size_t c = 0; c < together; ++c) p[c] *= i[c] == j[c] ? 2.0 : 1.0;
+  const Lanes bits{1, 2, 4, 8, 16, 32, 64, 128};
+  return static_cast<std::uint32_t>(numerics::sumOfLanes(loadLanes(p.data()) > loadLanes(u.data()) ? bits : Lanes{}));
+}
+
+template <ParticleType Type>
 template <class Rate>
 void PairSampling<Type>::draw(const Rate& rate, PairPopulation<Type>& population, double time, RandomStream& random,
                               PopulationCounters& counters) {
@@ -121,14 +154,11 @@ void PairSampling<Type>::draw(const Rate& rate, PairPopulation<Type>& population
     const auto candidates = static_cast<std::uint64_t>(std::min(needed, block));
     const double part = needed > block ? block * aim * probability_ / (highest_ * pairs) : time;
     const double scale = part * pairs / static_cast<double>(candidates);
-    double highest = 0, watched = 0;
+    double highest = 0;
     std::uint64_t happened = 0;
-    const auto chance = [&](double kernel, std::uint32_t i, std::uint32_t j) {
-      return kernel * std::max(rows[i].weight, rows[j].weight) * (i == j ? 2 * scale : scale);
-    };
     std::array<std::uint64_t, 2 * together> words{};
     PlacesOfPairs i, j;
-    std::array<double, together> u, p;
+    std::array<double, together> u, p, share;
     for (std::uint64_t k = 0; k < candidates; k += together) {
       const auto count = static_cast<std::size_t>(std::min<std::uint64_t>(together, candidates - k));
       for (std::size_t w = 0; w < 2 * count; ++w) words[w] = random.bits();
@@ -140,22 +170,11 @@ void PairSampling<Type>::draw(const Rate& rate, PairPopulation<Type>& population
         u[c] = openUnitInterval(words[2 * c + 1]);
       }
       rate(i, j, p);
-      std::uint32_t marked = 0;  // those that happen or are watched, a bit each
-      for (std::size_t c = 0; c < together; ++c) {
-        p[c] = chance(p[c], i[c], j[c]);
-        marked |= static_cast<std::uint32_t>(p[c] > std::min(watched, u[c])) << c;
-      }
-      marked &= (1U << count) - 1U;
-      while (marked != 0) {
-        const auto c = static_cast<std::size_t>(std::countr_zero(marked));
-        marked &= marked - 1U;
-        if (p[c] > watched) {
-          const double counted = p[c] * shareOf(rows[i[c]], rows[j[c]]);
-          highest = std::max(highest, counted);
-          watched = std::min(highest, probability_);
-          if (counted > probability_ * (1 + roundOff)) ++counters.limited;
-        }
-        if (u[c] >= p[c]) continue;
+      std::uint32_t happening = judge(rows, i, j, u, scale, p, share) & ((1U << count) - 1U);
+      for (std::size_t c = count; c < together; ++c) p[c] = 0;
+      while (happening != 0) {
+        const auto c = static_cast<std::size_t>(std::countr_zero(happening));
+        happening &= happening - 1U;
         ++happened;
         happen(population, i[c], j[c], p[c], u[c], counters);
         // Those behind it are of the population as it is now.
@@ -165,9 +184,16 @@ void PairSampling<Type>::draw(const Rate& rate, PairPopulation<Type>& population
           same |= static_cast<std::uint32_t>((i[l] == a) | (i[l] == b) | (j[l] == a) | (j[l] == b)) << l;
         for (same &= (1U << count) - (2U << c); same != 0; same &= same - 1U) {
           const auto l = static_cast<std::size_t>(std::countr_zero(same));
-          p[l] = chance(rate(i[l], j[l]), i[l], j[l]);
-          marked |= static_cast<std::uint32_t>(p[l] > std::min(watched, u[l])) << l;
+          const auto &first = rows[i[l]], &second = rows[j[l]];
+          p[l] = rate(i[l], j[l]) * std::max(first.weight, second.weight) * (i[l] == j[l] ? 2 * scale : scale);
+          share[l] = shareOf(first, second);
+          happening = (happening & ~(1U << l)) | static_cast<std::uint32_t>(p[l] > u[l]) << l;
         }
+      }
+      for (std::size_t c = 0; c < together; ++c) {
+        const double counted = p[c] * share[c];
+        highest = std::max(highest, counted);
+        counters.limited += counted > probability_ * (1 + roundOff) ? 1 : 0;
       }
     }
     counters.fictitious += candidates - happened;
@@ -175,8 +201,8 @@ void PairSampling<Type>::draw(const Rate& rate, PairPopulation<Type>& population
     over_ += part;
     time = needed > block ? time - part : 0;
     // A block of few candidates says little about the highest.
-    const double share = static_cast<double>(candidates) / block;
-    highest_ = std::max(highest / scale, highest_ * (1 - (1 - largestShare) * share));
+    const double trust = static_cast<double>(candidates) / block;
+    highest_ = std::max(highest / scale, highest_ * (1 - (1 - largestShare) * trust));
   }
 }
 
