@@ -3,13 +3,18 @@
 // trees there is no tree with the mean of all that belongs to them.
 #pragma once
 
+#include <array>
+#include <cmath>
+#include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 
 #include "core/modules.hpp"
 #include "core/random.hpp"
 #include "particles/population/model/particle_type.hpp"
+#include "particles/trees/tree_fusing.hpp"
 #include "particles/trees/tree_spheres.hpp"
 
 namespace lampblack::particles {
@@ -65,14 +70,19 @@ class PrimaryTrees {
     if (bySurface()) return withSurfaceOfBoth(std::move(p), q);
     if (p.count() < q.count()) p.swap(q);
     const std::size_t n = p.count(), m = q.count();
-    TreeHead& tree = p.own(n + m);
     const TreeHead& other = q.head();
     if (spheres_) {
+      TreeHead& tree = p.own(n + m);
       spheres_->join(tree, other, random);
       measure(tree);
       tree.sintering += other.sintering;
       return sinteredOn(std::move(p));
     }
+    const TreeNeck contact = contactOf(p, q, random);
+    // Where nothing sinters and no other neck waits to be looked at, the contact alone may be fused.
+    const bool isAlone = !material_->sintering.active() && looksOn() && isSettled(p.head()) && isSettled(other);
+    if (isAlone && m == 1 && isFused(contact)) return absorbed(std::move(p), other, contact.left);
+    TreeHead& tree = p.own(n + m);
     TreePrimary* primaries = primariesOf(&tree);
     TreeNeck* necks = necksOf(&tree);
     std::copy_n(q.primaries().data(), m, primaries + n);
@@ -82,14 +92,7 @@ class PrimaryTrees {
       for (std::uint32_t* index : {&neck.left, &neck.right, &neck.first, &neck.last}) *index += shift;
       necks[n + k] = neck;
     }
-    TreeNeck& contact = necks[n - 1];
-    contact.left = static_cast<std::uint32_t>(random.below(n));
-    contact.right = shift + static_cast<std::uint32_t>(random.below(m));
-    contact.first = 0;
-    contact.last = static_cast<std::uint32_t>(n + m - 1);
-    contact.common =
-        primarySurface(primaries[contact.left].diameter) + primarySurface(primaries[contact.right].diameter);
-    contact.sphere = sphereOfNeck(primaries, contact);
+    necks[n - 1] = contact;
     tree.count += other.count;
     for (std::size_t c = 0; c < mostTreeComponents; ++c) tree.units[c] += other.units[c];
     tree.volume += other.volume;
@@ -98,13 +101,15 @@ class PrimaryTrees {
     tree.levels += other.levels + sinteringLevel(contact);
     tree.sintering += other.sintering;
     shape(tree);
-    return sinteredOn(std::move(p));
+    return isAlone && !isFused(contact) ? resting(std::move(p)) : sinteredOn(std::move(p));
   }
 
   // Time (s) up to which trees have sintered when they collide.
   [[nodiscard]] double& clock() const { return shared_->clock; }
   // Time (s) at which all trees are brought up to date next.
   void setNextUpdate(double time) const { shared_->nextUpdate = time; }
+  // Single primaries that were one with what they touched since the last call, in collisions.
+  [[nodiscard]] std::uint64_t takeAbsorbed() const { return std::exchange(shared_->absorbed, 0); }
   // The function that sinters a tree up to a time (s).
   void setSintering(std::function<void(Tree&, double time)> sinter) const { shared_->sinter = std::move(sinter); }
 
@@ -120,13 +125,41 @@ class PrimaryTrees {
   void shape(TreeHead& tree) const { shapeTree(tree, 1 / material_->fractalDimension, size_); }
 
  private:
+  // In point contact, as it stands in the joined tree.
+  [[nodiscard]] static TreeNeck contactOf(const Tree& p, const Tree& q, RandomStream& random) {
+    const auto n = static_cast<std::uint32_t>(p.count()), m = static_cast<std::uint32_t>(q.count());
+    const auto left = static_cast<std::uint32_t>(random.below(n)), right = static_cast<std::uint32_t>(random.below(m));
+    const std::array<TreePrimary, 2> both{p.primaries()[left], q.primaries()[right]};
+    const double common = primarySurface(both[0].diameter) + primarySurface(both[1].diameter);
+    const double sphere = sphereOfNeck(both.data(), {0, 0, 0, 1, 0, 1});
+    return {common, sphere, left, n + right, 0, n + m - 1};
+  }
   // The joined tree sinters until the next update, at the rate it has half-way there.
+  [[nodiscard]] bool looksOn() const { return shared_->sinter && shared_->nextUpdate > clock(); }
+  [[nodiscard]] double halfWay() const { return 0.5 * (clock() + shared_->nextUpdate); }
   [[nodiscard]] Tree sinteredOn(Tree&& p) const {
     TreeHead& tree = p.own();
     tree.time = clock();
     tree.rest = 0;
-    if (shared_->sinter && shared_->nextUpdate > clock()) shared_->sinter(p, 0.5 * (clock() + shared_->nextUpdate));
+    if (looksOn()) shared_->sinter(p, halfWay());
     return std::move(p);
+  }
+  // As sintered on, where there is nothing to do.
+  [[nodiscard]] static bool isSettled(const TreeHead& tree) { return tree.count == 1 || std::isinf(tree.rest); }
+  [[nodiscard]] Tree resting(Tree&& p) const {
+    TreeHead& tree = p.own();
+    tree.time = halfWay();
+    tree.rest = std::numeric_limits<double>::infinity();
+    tree.sintering = 0;
+    return std::move(p);
+  }
+  // With a single primary that is one with the one that it has touched: as joined and sintered on.
+  [[nodiscard]] Tree absorbed(Tree&& p, const TreeHead& single, std::uint32_t at) const {
+    TreeHead& tree = p.own();
+    const bool isDone = absorb(tree, at, single.units, *material_);
+    measure(tree);
+    ++shared_->absorbed;
+    return isDone ? resting(std::move(p)) : sinteredOn(std::move(p));
   }
   [[nodiscard]] Tree withSurfaceOfBoth(Tree&& p, const Tree& q) const {
     TreeHead& tree = p.own();
@@ -141,6 +174,7 @@ class PrimaryTrees {
 
   struct Shared {
     double clock = 0, nextUpdate = 0;
+    std::uint64_t absorbed = 0;
     std::function<void(Tree&, double)> sinter;
   };
   std::shared_ptr<const TreeMaterial> material_;

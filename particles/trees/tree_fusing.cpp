@@ -1,13 +1,45 @@
 // Two primaries become one.
+#include "particles/trees/tree_fusing.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
 #include "numerics/index_lanes.hpp"
-#include "particles/trees/tree_sintering.hpp"
 
 namespace lampblack::particles {
+namespace {
+
+void unite(TreePrimary& primary, const TreeUnits& units, const TreeMaterial& material) {
+  for (std::size_t c = 0; c < mostTreeComponents; ++c) primary.units[c] += units[c];
+  primary.diameter = treeDiameter(material.volume(primary.units));
+}
+
+// A neck of a primary that is larger than before keeps its level.
+void carryOn(const TreePrimary* primaries, TreeNeck& neck) {
+  const double level = sinteringLevel(neck);
+  neck.sphere = sphereOfNeck(primaries, neck);
+  neck.common = commonSurface(neck.sphere, level);
+  // Of a small primary and one that has grown the level in point contact is above that of equals.
+  const bool isBurnt = !(primaries[neck.left].diameter > 0 && primaries[neck.right].diameter > 0);
+  if (!isBurnt) neck.common = std::min(neck.common, touchingSurface(primaries, neck));
+}
+
+}  // namespace
+
+bool absorb(TreeHead& tree, std::uint32_t at, const TreeUnits& units, const TreeMaterial& material) {
+  TreePrimary* primaries = primariesOf(&tree);
+  TreeNeck* necks = necksOf(&tree);
+  unite(primaries[at], units, material);
+  bool isSettled = true;
+  for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
+    if ((necks[k].left != at) & (necks[k].right != at)) continue;
+    carryOn(primaries, necks[k]);
+    isSettled = isSettled && !isFused(necks[k]);
+  }
+  return isSettled;
+}
 
 std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material) {
   TreePrimary* primaries = primariesOf(&tree);
@@ -18,10 +50,7 @@ std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material
   const std::uint32_t before = b - (middle + 1);  // primaries of the right part before b
 
   // The joined primary, and which necks know it.
-  TreePrimary joined = primaries[a];
-  for (std::size_t c = 0; c < mostTreeComponents; ++c) joined.units[c] += primaries[b].units[c];
-  joined.diameter = treeDiameter(material.volume(joined.units));
-  primaries[a] = joined;
+  unite(primaries[a], primaries[b].units, material);
 
   // Right part before b, left part, right part behind b; the same for the necks in between.
   std::rotate(primaries + first, primaries + middle + 1, primaries + b);
@@ -51,14 +80,6 @@ std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material
     neck.first = ofLeft ? begin + before : newBegin;
     neck.last = ofLeft ? end + before : newEnd;
     return (left == a) | (left == b) | (right == a) | (right == b);
-  };
-  const auto join = [&](TreeNeck& neck) {
-    const double level = sinteringLevel(neck);
-    neck.sphere = sphereOfNeck(primaries, neck);
-    neck.common = commonSurface(neck.sphere, level);
-    // Of a small primary and one that has grown the level in point contact is above that of equals.
-    const bool isBurnt = !(primaries[neck.left].diameter > 0 && primaries[neck.right].diameter > 0);
-    if (!isBurnt) neck.common = std::min(neck.common, touchingSurface(primaries, neck));
   };
   // The same where b is the first of the right part, as where a single primary was joined: a takes its place, and the
   // left part the place of a range that begins with it.
@@ -90,7 +111,7 @@ std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material
       renumberAll(renumberBehind);
     else
       renumberAll(renumber);
-    for (std::size_t t = 0; t < count; ++t) join(necks[touched[t]]);
+    for (std::size_t t = 0; t < count; ++t) carryOn(primaries, necks[touched[t]]);
     if (count > 0) from = std::min<std::size_t>(from, touched[0]);
   }
   return from;

@@ -197,6 +197,7 @@ void TreePopulation::jump(Reactions& reactions, const typename Reactions::Sums& 
   type_.setNextUpdate(end);
   Events<Reactions> events{*this, reactions};
   runEvents(time, end, random_, births_, events, CoagulationJumps<Method>{method_, options_.coagulation});
+  counters_.fused += type_.takeAbsorbed();
   type_.clock() = end;
 }
 

@@ -53,6 +53,11 @@ enum class CollisionSize { primaries, volumeToSurface, shadow };
   return sphere / (level * (1 - touching) + touching);
 }
 
+// Whether its two primaries are one.
+[[nodiscard, gnu::always_inline]] inline bool isFused(const TreeNeck& neck) {
+  return neck.common <= neck.sphere * fusedRatio;
+}
+
 // Diameter of collision of a tree from its sums and its surface (eqs. 17-19): n_r = S^3 / (36 pi V^2) is the ratio of
 // the surfaces to the third power.
 [[nodiscard]] inline double collisionOfSurface(const TreeHead& tree, double inverseDimension, CollisionSize size) {

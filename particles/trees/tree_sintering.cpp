@@ -56,7 +56,7 @@ double TreeSintering::sizeOf(const TreePrimary* primaries, const TreeNeck& neck,
 TreeSintering::Course TreeSintering::follow(const TreePrimary* primaries, const TreeNeck& neck, double density,
                                             double dt) const {
   const SinteringLaw& law = type_.material().sintering;
-  if (neck.common <= neck.sphere * fusedRatio) return {neck.common, neck.sphere, 0};
+  if (isFused(neck)) return {neck.common, neck.sphere, 0};
   const Shrinking shrinks = shrinking(primaries, neck, density);
   const double fused = shrinks.fused;
   const auto sphereAt = [&](double common) { return neck.sphere - shrinks.sphere * (neck.common - common); };
@@ -170,7 +170,7 @@ void TreeSintering::fuseAll(TreeHead& tree, Changes& changes) {
   const TreeNeck* necks = necksOf(&tree);
   const std::uint32_t count = tree.count;
   for (std::uint32_t k = 0; k + 1 < tree.count;) {
-    if (necks[k].common > necks[k].sphere * fusedRatio) {
+    if (!isFused(necks[k])) {
       ++k;
       continue;
     }

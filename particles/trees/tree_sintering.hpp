@@ -20,6 +20,7 @@
 
 #include "core/modules.hpp"
 #include "particles/trees/primary_trees.hpp"
+#include "particles/trees/tree_fusing.hpp"
 
 namespace lampblack::particles {
 
@@ -94,10 +95,5 @@ class TreeSintering {
   std::vector<double> rates_, starts_, densities_;  // of each neck: m2/s; m2 at the beginning; sites in a m2
   std::vector<Shrinking> shrinkings_;
 };
-
-// Makes the two primaries of the k-th neck one, in the place of the left one: its part of the tree goes where the right
-// one stood. Sums are not touched. Levels of other necks stay. Returns
-// from which neck on there are others than before.
-std::size_t fuseNeck(TreeHead& tree, std::size_t k, const TreeMaterial& material);
 
 }  // namespace lampblack::particles

@@ -92,9 +92,9 @@ void TreeSintering::losePartSites(TreeHead& tree, Changes& changes) {
   sizePrimaries(tree);
   for (std::uint32_t k = 0; k + 1 < tree.count; ++k) {
     TreeNeck& neck = necksOf(&tree)[k];
-    const bool isFused = neck.common <= neck.sphere * fusedRatio;
+    const bool wasFused = isFused(neck);
     neck.sphere = sphereOfNeck(primariesOf(&tree), neck);
-    if (isFused) fuseAt(neck, neck.sphere * fusedRatio);
+    if (wasFused) fuseAt(neck, neck.sphere * fusedRatio);
   }
 }
 
@@ -113,9 +113,9 @@ void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
       starts_.push_back(necks[k].common);
       shrinkings_.push_back(shrinking(primariesOf(&tree), necks[k], densities_[k]));
     }
-    bool isFused = fuseAtOnce(tree, whole, remaining);
+    bool hasFused = fuseAtOnce(tree, whole, remaining);
     const double root = 1 / cubeRoot(static_cast<double>(tree.count));
-    while (!isFused && remaining > 0) {
+    while (!hasFused && remaining > 0) {
       const double sphere = treeSphere(tree.volume);
       // Change of the sum of levels, 1/s, and what step that and the necks allow.
       const double surface = surfaceOf(tree, tree.levels, sphere, root);
@@ -139,11 +139,11 @@ void TreeSintering::parts(Tree& handle, double dt, Changes& changes) {
         tree.volume -= shrinkings_[k].volume * gone;
         if (necks[k].common - fused < 1e-6 * fused) {
           fuseAt(necks[k], fused);
-          isFused = true;
+          hasFused = true;
         }
         tree.levels += sinteringLevel(necks[k]);
       }
-      fresh_ = h == dt && relative * h < tolerance_ && !isFused;
+      fresh_ = h == dt && relative * h < tolerance_ && !hasFused;
       remaining = h < remaining ? remaining - h : 0;
     }
     losePartSites(tree, changes);

@@ -100,6 +100,63 @@ TEST(PrimaryTrees, StayTreesHoweverTheyJoinAndFuse) {
   EXPECT_GT(capped, 100);
 }
 
+// Where nothing sinters a single primary that is one with what it touches goes into it at once, and of other trees the
+// contact alone is looked at: to the bits of trees that are joined first and of which every neck is looked at then.
+TEST(PrimaryTrees, ThatAreOneAtOnceAreAsJoinedAndFused) {
+  TreeMaterial material = silica();
+  material.sintering.mechanism = SinteringMechanism::none;
+  const PrimaryTrees atOnce(material, CollisionSize::primaries), later(material, CollisionSize::primaries);
+  TreeSintering looksAtOnce(atOnce, 0.01), looksLater(later, 0.01);
+  TreeSintering::Changes changes, changesLater;
+  atOnce.setSintering([&](Tree& tree, double time) { looksAtOnce.advance(tree, time, changes); });
+  atOnce.setNextUpdate(2);
+  std::uint64_t absorbed = 0;
+  for (std::uint64_t round = 0; round < 50; ++round) {
+    RandomStream random(5, 6, 7), randomLater = random;
+    random.seek(1000 * round);
+    randomLater.seek(1000 * round);
+    RandomStream sizes(1, round, 2);
+    Tree tree = atOnce.make(spherical(material, 3e-8)), treeLater = later.make(spherical(material, 3e-8));
+    for (int i = 0; i < 40; ++i) {
+      // Nuclei, larger ones, and now and then two in contact.
+      const double d = 1e-9 + 30e-9 * std::pow(sizes.uniform(), 4);
+      Tree one = atOnce.make(spherical(material, d)), oneLater = later.make(spherical(material, d));
+      if (i % 5 == 0) {
+        one = atOnce.coagulated(std::move(one), atOnce.make(spherical(material, 3e-9)), random);
+        oneLater = later.coagulated(std::move(oneLater), later.make(spherical(material, 3e-9)), randomLater);
+        looksLater.advance(oneLater, 1, changesLater);
+      }
+      tree = atOnce.coagulated(std::move(tree), std::move(one), random);
+      treeLater = later.coagulated(std::move(treeLater), std::move(oneLater), randomLater);
+      looksLater.advance(treeLater, 1, changesLater);
+      const TreeHead &h = tree.head(), &l = treeLater.head();
+      ASSERT_EQ(h.count, l.count);
+      EXPECT_EQ(random.position(), randomLater.position());
+      EXPECT_EQ(h.units, l.units);
+      for (const auto value : {&TreeHead::volume, &TreeHead::diameters, &TreeHead::surfaces, &TreeHead::levels,
+                               &TreeHead::surface, &TreeHead::collision, &TreeHead::sintering})
+        EXPECT_EQ(h.*value, l.*value);
+      if (h.count > 1) {
+        EXPECT_EQ(h.time, 1);
+        EXPECT_EQ(h.rest, l.rest);
+      }
+      for (std::size_t k = 0; k + 1 < h.count; ++k) {
+        const TreeNeck &a = tree.necks()[k], &b = treeLater.necks()[k];
+        EXPECT_TRUE(a.common == b.common && a.sphere == b.sphere);
+        EXPECT_TRUE(a.left == b.left && a.right == b.right && a.first == b.first && a.last == b.last);
+      }
+      for (std::size_t k = 0; k < h.count; ++k) {
+        EXPECT_EQ(tree.primaries()[k].diameter, treeLater.primaries()[k].diameter);
+        EXPECT_EQ(tree.primaries()[k].units, treeLater.primaries()[k].units);
+      }
+    }
+    absorbed += atOnce.takeAbsorbed();
+  }
+  EXPECT_GT(absorbed, 100U);
+  EXPECT_EQ(absorbed + changes.fused, changesLater.fused);
+  EXPECT_EQ(atOnce.takeAbsorbed(), 0U);
+}
+
 TEST(PrimaryTrees, CopiesShareTheirPrimariesUntilOneChanges) {
   RandomStream random(1, 2, 3);
   const PrimaryTrees type(silica(), CollisionSize::primaries);
