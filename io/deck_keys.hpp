@@ -23,9 +23,11 @@
 #include <algorithm>
 #include <array>
 #include <concepts>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -96,12 +98,31 @@ class SectionKeys {
   DeckSchema schema_;
 };
 
+namespace deckkeys {
+
+// Of pointers to members, which do not look at the options' values.
+template <typename Outer, typename Inner>
+struct MemberOfMember {
+  Outer outer;
+  Inner member;
+  template <typename Options>
+  auto& operator()(Options& options) const {
+    return std::invoke(member, std::invoke(outer, options));
+  }
+};
+
+// Whether a member is at the same place in all options.
+template <typename Member>
+inline constexpr bool isPlain = std::is_member_object_pointer_v<Member>;
+template <typename Outer, typename Inner>
+inline constexpr bool isPlain<MemberOfMember<Outer, Inner>> = isPlain<Outer>&& isPlain<Inner>;
+
+}  // namespace deckkeys
+
 // A member of a member, inner(&Case::time, &Times::end).
 template <typename Outer, typename Inner>
-[[nodiscard]] auto inner(Outer outer, Inner member) {
-  return [ outer, member ](auto& options) -> auto& {
-    return std::invoke(member, std::invoke(outer, options));
-  };
+[[nodiscard]] deckkeys::MemberOfMember<Outer, Inner> inner(Outer outer, Inner member) {
+  return {outer, member};
 }
 
 namespace deckkeys {
@@ -132,45 +153,102 @@ using MemberOf = std::remove_cvref_t<std::invoke_result_t<Member, Options&>>;
 template <typename Options, typename Member>
 using ValueOf = typename Unwrapped<MemberOf<Options, Member>>::Type;
 
-// As it stands in a deck. The unit follows each value.
+// A type of members, without its name: how a value of the deck comes into one, and its text as it stands in a deck,
+// the unit behind each number.
+struct ValueType {
+  void (*read)(const Deck& deck, const std::string& key, KeyType type, void* into);
+  std::string (*text)(const void* value, const std::string& unit);
+  bool isOptional = false, isList = false;
+  std::size_t count = 0;
+};
+// The same of choices, which are numbers here.
+struct ChoiceType {
+  void (*clear)(void* into);
+  void (*add)(void* into, std::int64_t choice);
+  std::int64_t (*get)(const void* value);
+  bool isOptional = false, isList = false;
+};
+
 template <typename T>
-std::string defaultText(const T& value, const std::string& unit) {
-  const std::string behind = unit.empty() ? "" : " " + unit;
+std::string textOf(const T& value, const std::string& unit) {
   if constexpr (Unwrapped<T>::isList) {
     std::string items;
-    for (const auto& item : value) items += (items.empty() ? "" : ", ") + defaultText(item, unit);
+    for (const auto& item : value) items += (items.empty() ? "" : ", ") + textOf(item, unit);
     return "[" + items + "]";
   } else if constexpr (std::same_as<T, std::string>) {
     return "'" + value + "'";
   } else {
-    return fmt::format("{}", value) + behind;
+    return fmt::format("{}", value) + (unit.empty() ? "" : " " + unit);
   }
 }
 
-// The deck's values of one type as the member has them.
-template <typename Member, typename Values>
-void assignList(Member& member, const Values& values) {
-  if constexpr (Unwrapped<Member>::count > 0)
-    std::copy_n(values.begin(), std::min(values.size(), member.size()), member.begin());
-  else
-    member.assign(values.begin(), values.end());
+template <typename T>
+void readInto(const Deck& deck, const std::string& key, KeyType type, T& into) {
+  using Value = typename Unwrapped<T>::Type;
+  if constexpr (Unwrapped<T>::isList) {
+    const auto assign = [&](const auto& values) {
+      if constexpr (Unwrapped<T>::count > 0)
+        std::copy_n(values.begin(), std::min(values.size(), into.size()), into.begin());
+      else
+        into.assign(values.begin(), values.end());
+    };
+    if constexpr (std::same_as<Value, std::string>)
+      assign(deck.strings(key));
+    else if constexpr (std::integral<Value>)
+      assign(deck.integers(key));
+    else
+      assign(type == KeyType::number ? deck.numbers(key) : deck.quantities(key));
+  } else if constexpr (std::same_as<Value, std::string>) {
+    into = deck.string(key);
+  } else if constexpr (std::same_as<Value, bool>) {
+    into = deck.boolean(key);
+  } else if constexpr (std::integral<Value>) {
+    into = deck.integer<Value>(key);
+  } else {
+    into = type == KeyType::number ? deck.number(key) : deck.quantity(key);
+  }
 }
 
-}  // namespace deckkeys
+template <typename T>
+[[nodiscard]] ValueType valueType() {
+  using As = Unwrapped<T>;
+  ValueType type{[](const Deck& deck, const std::string& key, KeyType kind, void* into) {
+                   readInto(deck, key, kind, *static_cast<T*>(into));
+                 },
+                 nullptr, As::isOptional, As::isList, As::count};
+  if constexpr (!As::isOptional)
+    type.text = [](const void* value, const std::string& unit) { return textOf(*static_cast<const T*>(value), unit); };
+  return type;
+}
 
-template <typename Options>
-class DeckKeys : public SectionKeys {
+template <typename T>
+[[nodiscard]] ChoiceType choiceType() {
+  using As = Unwrapped<T>;
+  ChoiceType type{nullptr,
+                  [](void* into, std::int64_t choice) {
+                    if constexpr (As::isList)
+                      static_cast<T*>(into)->push_back(static_cast<typename As::Type>(choice));
+                    else
+                      *static_cast<T*>(into) = static_cast<typename As::Type>(choice);
+                  },
+                  nullptr, As::isOptional, As::isList};
+  if constexpr (As::isList)
+    type.clear = [](void* into) { static_cast<T*>(into)->clear(); };
+  else if constexpr (!As::isOptional)
+    type.get = [](const void* value) { return static_cast<std::int64_t>(*static_cast<const T*>(value)); };
+  return type;
+}
+
+// Where a member is in the options: so many bytes from their beginning, or what a function finds.
+struct Place {
+  std::ptrdiff_t offset = 0;
+  std::function<void*(void* options)> find;
+  [[nodiscard]] void* in(void* options) const { return find ? find(options) : static_cast<char*>(options) + offset; }
+};
+
+// What does not depend on the options' type.
+class BoundKeys : public SectionKeys {
  public:
-  template <typename Member>
-  using Value = deckkeys::ValueOf<Options, Member>;
-  template <typename Member>
-  using Choices = std::vector<std::pair<std::string, Value<Member>>>;
-  using Read = std::function<void(const Deck&, const std::string& key, Options&)>;
-
-  // `section` is the path that the keys have in common, "" for none; `defaults` what the keys have by default.
-  explicit DeckKeys(std::string section, Options defaults = {})
-      : SectionKeys(std::move(section)), defaults_(std::move(defaults)) {}
-
   using SectionKeys::boolean;
   using SectionKeys::choice;
   using SectionKeys::integer;
@@ -178,92 +256,92 @@ class DeckKeys : public SectionKeys {
   using SectionKeys::quantity;
   using SectionKeys::text;
 
+ protected:
+  using ReadAny = std::function<void(const Deck& deck, const std::string& key, void* options)>;
+  using Words = std::vector<std::pair<std::string, std::int64_t>>;
+
+  explicit BoundKeys(std::string section) : SectionKeys(std::move(section)) {}
+  void bind(const std::string& name, KeyType type, DeckKey key, std::string doc, ReadAny read);
+  // `defaults`: options that have the defaults.
+  void bindValue(const std::string& name, KeyType type, Place place, const ValueType& value, void* defaults,
+                 DeckKey key, std::string doc);
+  void bindChoice(const std::string& name, Place place, const ChoiceType& type, Words words, void* defaults,
+                  DeckKey key, std::string doc);
+  void readAll(const Deck& deck, void* options, const std::string& at) const;
+
+ private:
+  std::vector<std::pair<std::string, ReadAny>> reads_;
+};
+
+}  // namespace deckkeys
+
+template <typename Options>
+class DeckKeys : public deckkeys::BoundKeys {
+ public:
+  template <typename Member>
+  using Value = deckkeys::ValueOf<Options, Member>;
+  template <typename Member>
+  using Choices = std::initializer_list<std::pair<const char*, Value<Member>>>;
+  using Read = std::function<void(const Deck&, const std::string& key, Options&)>;
+
+  // `section` is the path that the keys have in common, "" for none; `defaults` what the keys have by default.
+  explicit DeckKeys(std::string section, Options defaults = {})
+      : BoundKeys(std::move(section)), defaults_(std::move(defaults)) {}
+
+  using BoundKeys::boolean;
+  using BoundKeys::choice;
+  using BoundKeys::integer;
+  using BoundKeys::number;
+  using BoundKeys::quantity;
+  using BoundKeys::text;
+
   template <typename Member>
   void number(const std::string& name, Member member, DeckKey key, std::string doc) {
-    addNumbers(name, KeyType::number, {}, member, std::move(key), std::move(doc));
+    bindMember(name, KeyType::number, member, std::move(key), std::move(doc));
   }
   template <typename Member>
   void quantity(const std::string& name, const units::Dimension& dimension, Member member, DeckKey key,
                 std::string doc) {
-    addNumbers(name, KeyType::quantity, dimension, member, std::move(key), std::move(doc));
+    key.dimension = dimension;
+    bindMember(name, KeyType::quantity, member, std::move(key), std::move(doc));
   }
   template <typename Member>
   void integer(const std::string& name, Member member, DeckKey key, std::string doc) {
-    addPlain(name, KeyType::integer, member, std::move(key), std::move(doc),
-             [member](const Deck& deck, const std::string& path, Options& options) {
-               auto& into = std::invoke(member, options);
-               if constexpr (isList<Member>)
-                 deckkeys::assignList(into, deck.integers(path));
-               else
-                 into = deck.integer<Value<Member>>(path);
-             });
+    bindMember(name, KeyType::integer, member, std::move(key), std::move(doc));
   }
   template <typename Member>
   void boolean(const std::string& name, Member member, DeckKey key, std::string doc) {
-    addPlain(name, KeyType::boolean, member, std::move(key), std::move(doc),
-             [member](const Deck& deck, const std::string& path, Options& options) {
-               std::invoke(member, options) = deck.boolean(path);
-             });
+    bindMember(name, KeyType::boolean, member, std::move(key), std::move(doc));
   }
   template <typename Member>
   void text(const std::string& name, Member member, DeckKey key, std::string doc) {
-    addPlain(name, KeyType::string, member, std::move(key), std::move(doc),
-             [member](const Deck& deck, const std::string& path, Options& options) {
-               auto& into = std::invoke(member, options);
-               if constexpr (isList<Member>)
-                 deckkeys::assignList(into, deck.strings(path));
-               else
-                 into = deck.string(path);
-             });
+    bindMember(name, KeyType::string, member, std::move(key), std::move(doc));
   }
   // The words of the deck and what each of them is; the default is the word of the options' own value.
   template <typename Member>
   void choice(const std::string& name, Member member, const Choices<Member>& choices, DeckKey key, std::string doc) {
-    for (const auto& [word, value] : choices) key.choices.push_back(word);
-    if (key.presence == Presence::required && !key.isPresenceSaid) {
-      if constexpr (isOptional<Member>) {
-        key.optional();
-      } else if constexpr (!isList<Member>) {
-        for (const auto& [word, value] : choices)
-          if (value == std::invoke(member, defaults_)) key.byDefault(word);
-        if (key.defaultText.empty())
-          throw std::logic_error(fmt::format("deck key '{}': no choice is the default", joinedPath(section_, name)));
-      }
-    }
-    bind(name, KeyType::choice, isList<Member> ? key.list() : key, std::move(doc),
-         [member, choices](const Deck& deck, const std::string& path, Options& options) {
-           const auto valueOf = [&](const std::string& word) {
-             return std::ranges::find(choices, word, &Choices<Member>::value_type::first)->second;
-           };
-           auto& into = std::invoke(member, options);
-           if constexpr (isList<Member>) {
-             into.clear();
-             for (const std::string& word : deck.strings(path)) into.push_back(valueOf(word));
-           } else {
-             into = valueOf(deck.choice(path));
-           }
-         });
+    Words words;
+    for (const auto& [word, value] : choices) words.emplace_back(word, static_cast<std::int64_t>(value));
+    bindChoice(name, placeOf(member), deckkeys::choiceType<deckkeys::MemberOf<Options, Member>>(), std::move(words),
+               &defaults_, std::move(key), std::move(doc));
   }
   // One of several words, kept as it is.
-  template <typename Member>
-  void word(const std::string& name, Member member, const std::vector<std::string>& words, DeckKey key,
+  void word(const std::string& name, std::string Options::*member, std::vector<std::string> words, DeckKey key,
             std::string doc) {
-    Choices<Member> choices;
-    for (const std::string& each : words) choices.emplace_back(each, each);
-    choice(name, member, choices, std::move(key), std::move(doc));
+    key.choices = std::move(words);
+    if (!key.isPresenceSaid) key.byDefault(defaults_.*member);
+    bindMember(name, KeyType::choice, member, std::move(key), std::move(doc));
   }
   // A key of any kind that `read` takes into the options.
   void other(const std::string& name, KeyType type, DeckKey key, std::string doc, Read read) {
-    bind(name, type, std::move(key), std::move(doc), std::move(read));
+    bind(name, type, std::move(key), std::move(doc),
+         [read = std::move(read)](const Deck& deck, const std::string& path, void* options) {
+           read(deck, path, *static_cast<Options*>(options));
+         });
   }
 
   // What the deck says, into what is there; `at` is the section where its path has names or items, "methods.mine".
-  void read(const Deck& deck, Options& options, const std::string& at) const {
-    for (const auto& [name, read] : reads_) {
-      const std::string key = joinedPath(at, name);
-      if (deck.isThere(key)) read(deck, key, options);
-    }
-  }
+  void read(const Deck& deck, Options& options, const std::string& at) const { readAll(deck, &options, at); }
   [[nodiscard]] Options read(const Deck& deck, const std::string& at) const {
     Options options = defaults_;
     read(deck, options, at);
@@ -273,48 +351,19 @@ class DeckKeys : public SectionKeys {
 
  private:
   template <typename Member>
-  using Unwrapped = deckkeys::Unwrapped<deckkeys::MemberOf<Options, Member>>;
-  template <typename Member>
-  static constexpr bool isList = Unwrapped<Member>::isList;
-  template <typename Member>
-  static constexpr bool isOptional = Unwrapped<Member>::isOptional;
-
-  void bind(const std::string& name, KeyType type, DeckKey key, std::string doc, Read read) {
-    add(name, type, std::move(key), std::move(doc));
-    reads_.emplace_back(name, std::move(read));
+  deckkeys::Place placeOf(Member member) {
+    if constexpr (deckkeys::isPlain<Member>)
+      return {reinterpret_cast<char*>(&std::invoke(member, defaults_)) - reinterpret_cast<char*>(&defaults_), {}};
+    else
+      return {0, [member](void* options) -> void* { return &std::invoke(member, *static_cast<Options*>(options)); }};
   }
-
   template <typename Member>
-  void addPlain(const std::string& name, KeyType type, Member member, DeckKey key, std::string doc, Read read) {
-    if (!key.isPresenceSaid) {
-      if constexpr (isOptional<Member>)
-        key.optional();
-      else
-        key.byDefault(deckkeys::defaultText(std::invoke(member, defaults_), units::siUnit(key.dimension)));
-    }
-    if constexpr (isList<Member>) {
-      key.isList = true;
-      if constexpr (Unwrapped<Member>::count > 0) key.count = Unwrapped<Member>::count;
-    }
-    bind(name, type, std::move(key), std::move(doc), std::move(read));
-  }
-
-  template <typename Member>
-  void addNumbers(const std::string& name, KeyType type, const units::Dimension& dimension, Member member, DeckKey key,
-                  std::string doc) {
-    key.dimension = dimension;
-    addPlain(name, type, member, std::move(key), std::move(doc),
-             [member, type](const Deck& deck, const std::string& path, Options& options) {
-               auto& into = std::invoke(member, options);
-               if constexpr (isList<Member>)
-                 deckkeys::assignList(into, type == KeyType::number ? deck.numbers(path) : deck.quantities(path));
-               else
-                 into = type == KeyType::number ? deck.number(path) : deck.quantity(path);
-             });
+  void bindMember(const std::string& name, KeyType type, Member member, DeckKey key, std::string doc) {
+    bindValue(name, type, placeOf(member), deckkeys::valueType<deckkeys::MemberOf<Options, Member>>(), &defaults_,
+              std::move(key), std::move(doc));
   }
 
   Options defaults_;
-  std::vector<std::pair<std::string, Read>> reads_;
 };
 
 }  // namespace lampblack::io

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/deck/checkpoint_deck.hpp"
@@ -15,7 +16,7 @@
 #include "chemistry/reactor/slider_crank.hpp"
 #include "core/modules.hpp"
 #include "coupling/carried_particles.hpp"
-#include "io/deck.hpp"
+#include "io/deck_keys.hpp"
 
 namespace lampblack::app {
 
@@ -32,13 +33,15 @@ struct EngineCase {
   double ratio = 0;                                     // equivalence ratio of the fresh charge
   double exhaust = 0;                                   // part of the charge that is burnt gas, by mole or by mass
   bool isExhaustByMole = false;
-  double exhaustFrozen = 0;  // K, at which the burnt gas is in equilibrium
-  double residual = 0;       // part by mass that stays of the cycle before
+  double exhaustFrozen = 1000;  // K, at which the burnt gas is in equilibrium
+  double residual = 0;          // part by mass that stays of the cycle before
   std::size_t mostCycles = 1;
   double angleTolerance = 0, temperatureTolerance = 0;  // deg of CA50, K at the start
   EngineOptions options;                                // but the repeat
-  std::size_t particles = 0;
-  std::uint64_t repeats = 1, seed = 1;
+  std::optional<double> headArea, pistonArea;           // m2; those of the bore
+  std::size_t particles = 100;
+  std::uint64_t repeats = 1;
+  double step = 0;                   // deg
   double every = 0;                  // deg, between rows
   std::vector<double> particlesAt;   // deg
   std::vector<std::size_t> species;  // of the history, the particles and the emissions
@@ -51,8 +54,24 @@ struct EngineCase {
   [[nodiscard]] std::vector<double> angles() const;  // of the rows
 };
 
-// All keys such a deck may have.
+// Fuel as a deck describes it.
+struct EngineSpray {
+  std::string fuel;
+  EngineTable rate;                          // kg/s
+  double temperature = 300, latentHeat = 0;  // K, J/kg, of the liquid
+  double dilution = 5;                       // kg of gas a kg of fuel
+  std::optional<std::size_t> mostParticles;
+};
+
+// All keys such a deck may have; those that an EngineCase is filled by, with angles and speeds in SI; those of the
+// section injection.
 DeckSchema engineSchema();
+DeckKeys<EngineCase> engineKeys();
+DeckKeys<EngineSpray> engineSprayKeys();
+
+// The laws of heat transfer by their names in decks.
+using NamedHeatLaw = std::pair<std::string, EngineHeatLaw>;
+const std::vector<NamedHeatLaw>& engineHeatLaws();
 
 // Collective only in warnings; InputError, pointing into the deck.
 EngineCase readEngineCase(const Deck& deck);

@@ -37,7 +37,7 @@ std::vector<double> freshGas(const EngineCase& made, const Thermo& thermo, doubl
 
 EngineGas engineCharge(const EngineCase& made, std::uint64_t repeat, const EngineResidual& left) {
   const Thermo thermo(*made.mechanism);
-  RandomStream random(made.seed, repeat, chargePurpose);
+  RandomStream random(made.options.seed, repeat, chargePurpose);
   std::vector<double> burnt = made.fresh;
   if (made.exhaust > 0) Equilibrium(*made.mechanism).atTemperatureAndPressure(made.exhaustFrozen, made.pressure, burnt);
   const double exhaust = made.exhaust > 0 ? exhaustByMass(made, thermo, made.fresh, burnt) : 0;

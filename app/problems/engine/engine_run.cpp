@@ -48,22 +48,23 @@ class PreparedEngine : public PreparedRun {
     if (progress_.done > case_.repeats)
       throw InputError(fmt::format("{}: this checkpoint has {} repeats, more than 'sample.repeats: {}'",
                                    restart->file.string(), progress_.done, case_.repeats));
-    recordedRun(
-        comm_, deck_, options, case_.seed, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-          if (restart) recordRestart(*restart, record);
-          const double begin = MPI_Wtime();
-          SavedProgress checkpoints(comm_, folder.path(), engineFingerprint(deck_, case_), case_.checkpoints.wallTime);
-          if (progress_.present)
-            runOne(checkpoints);
-          else
-            runAll(checkpoints);
-          if (case_.checkpoints.atEnd) (void)save(checkpoints);
-          const double seconds = MPI_Wtime() - begin;
-          record.stages = {{"cycles", seconds, seconds, seconds}};
-          record.simulatedTime = case_.timeOf(case_.end);
-          record.peakMemoryPerRank = peakMemory(comm_);
-          write(folder, info, record);
-        });
+    recordedRun(comm_, deck_, options, case_.options.seed,
+                [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
+                  if (restart) recordRestart(*restart, record);
+                  const double begin = MPI_Wtime();
+                  SavedProgress checkpoints(comm_, folder.path(), engineFingerprint(deck_, case_),
+                                            case_.checkpoints.wallTime);
+                  if (progress_.present)
+                    runOne(checkpoints);
+                  else
+                    runAll(checkpoints);
+                  if (case_.checkpoints.atEnd) (void)save(checkpoints);
+                  const double seconds = MPI_Wtime() - begin;
+                  record.stages = {{"cycles", seconds, seconds, seconds}};
+                  record.simulatedTime = case_.timeOf(case_.end);
+                  record.peakMemoryPerRank = peakMemory(comm_);
+                  write(folder, info, record);
+                });
   }
 
  private:
