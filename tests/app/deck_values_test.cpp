@@ -3,11 +3,11 @@
 #include <vector>
 
 #include "app/problems/flame/flame_case.hpp"
-#include "app/problems/reactor/reactor_case.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/modules.hpp"
 #include "particles/ensemble/soot_ensemble.hpp"
 #include "tests/app/app_fixture.hpp"
+#include "tests/app/kind_of.hpp"
 #include "tests/scratch.hpp"
 
 namespace lampblack::app {
@@ -182,10 +182,10 @@ inlet: {temperature: 900 K, composition: "H2: 1, O2: 1", mass_flow: 4 g/s}
 output: {spacing: 1 cm, species: [H], fractions: mass}
 integrator: {relative_tolerance: 1e-7, absolute_tolerance: 1e-14, maximum_steps: 77}
 )");
-  EXPECT_DOUBLE_EQ(duct.massFlux, 4e-3 / 2e-4);
-  EXPECT_DOUBLE_EQ(duct.length, 0.3);
-  EXPECT_DOUBLE_EQ(duct.inlet.pressure, 3 * 101325.0);
-  EXPECT_EQ(duct.inlet.temperature, 900);
+  EXPECT_DOUBLE_EQ(kindOf<PlugFlowKind>(duct).massFlux, 4e-3 / 2e-4);
+  EXPECT_DOUBLE_EQ(kindOf<PlugFlowKind>(duct).length, 0.3);
+  EXPECT_DOUBLE_EQ(kindOf<PlugFlowKind>(duct).inlet.pressure, 3 * 101325.0);
+  EXPECT_EQ(kindOf<PlugFlowKind>(duct).inlet.temperature, 900);
   EXPECT_EQ(duct.profile.value().value(0.1), 950);
   EXPECT_DOUBLE_EQ(duct.output.interval.value(), 0.01);
   EXPECT_TRUE(duct.output.massFractions);
@@ -195,7 +195,8 @@ integrator: {relative_tolerance: 1e-7, absolute_tolerance: 1e-14, maximum_steps:
   const ReactorCase fast = reactor(R"(reactor: {type: plug_flow, length: 1 m}
 inlet: {temperature: 900 K, composition: "H2: 1, O2: 1", velocity: 5 m/s}
 )");
-  EXPECT_DOUBLE_EQ(fast.massFlux, 5 * Thermo(*fast.mechanism).density(900, 101325, fast.inlet.Y));
+  EXPECT_DOUBLE_EQ(kindOf<PlugFlowKind>(fast).massFlux,
+                   5 * Thermo(*fast.mechanism).density(900, 101325, kindOf<PlugFlowKind>(fast).inlet.Y));
 }
 
 TEST(DeckValues, OfAClosedReactor) {
@@ -205,17 +206,17 @@ time: {end: 2 ms, maximum_step: 5 us}
 output: {interval: 10 us}
 ignition: {temperature_rate: false, species: [H2O2], temperature_rise: 250 K}
 )");
-  EXPECT_EQ(closed.type, ReactorType::ConstantVolume);
-  EXPECT_EQ(closed.initial.temperature, 1100);
-  EXPECT_DOUBLE_EQ(closed.initial.Y[closed.mechanism->speciesIndex("O2")], 0.75);
-  EXPECT_DOUBLE_EQ(closed.end, 2e-3);
+  EXPECT_EQ(kindOf<ClosedKind>(closed).held, ReactorSystem::Held::Density);
+  EXPECT_EQ(kindOf<ClosedKind>(closed).initial.temperature, 1100);
+  EXPECT_DOUBLE_EQ(kindOf<ClosedKind>(closed).initial.Y[closed.mechanism->speciesIndex("O2")], 0.75);
+  EXPECT_DOUBLE_EQ(closed.kind->end(), 2e-3);
   EXPECT_DOUBLE_EQ(closed.integrator.maximumStep, 5e-6);
   EXPECT_DOUBLE_EQ(closed.output.interval.value(), 10e-6);
   EXPECT_FALSE(closed.profile);
-  ASSERT_EQ(closed.ignition.size(), 3U);
-  EXPECT_EQ(closed.ignition[0].kind, IgnitionCriterion::Kind::MoleFraction);
-  EXPECT_EQ(closed.ignition[1].kind, IgnitionCriterion::Kind::MassFraction);
-  EXPECT_EQ(closed.ignition[2].rise, 250);
+  ASSERT_EQ(kindOf<ClosedKind>(closed).ignition.size(), 3U);
+  EXPECT_EQ(kindOf<ClosedKind>(closed).ignition[0].kind, IgnitionCriterion::Kind::MoleFraction);
+  EXPECT_EQ(kindOf<ClosedKind>(closed).ignition[1].kind, IgnitionCriterion::Kind::MassFraction);
+  EXPECT_EQ(kindOf<ClosedKind>(closed).ignition[2].rise, 250);
 }
 
 TEST(DeckValues, OfStirredReactors) {
@@ -225,17 +226,17 @@ inlet: {temperature: 400 K, composition: "H2: 1, O2: 1", mass_flow: 3 g/s}
 initial: {temperature: 1500 K, composition: "H2O: 1"}
 time: {end: 10 ms}
 )");
-  const StirredReactor& vessel = stirred.network.reactors.at(0);
+  const StirredReactor& vessel = kindOf<StirredKind>(stirred).vessels.reactors.at(0);
   EXPECT_DOUBLE_EQ(vessel.volume.value(), 70e-6);
   EXPECT_FALSE(vessel.residenceTime);
   EXPECT_FALSE(vessel.temperature);
   EXPECT_DOUBLE_EQ(vessel.conductance, 0.2);
   EXPECT_EQ(vessel.surroundings, 350);
-  EXPECT_DOUBLE_EQ(stirred.network.inflows.at(0).massFlow, 3e-3);
-  EXPECT_EQ(stirred.network.inflows.at(0).temperature, 400);
-  EXPECT_EQ(stirred.start.given.value().temperature, 1500);
-  EXPECT_DOUBLE_EQ(stirred.start.given.value().pressure, 0.5 * 101325);
-  EXPECT_DOUBLE_EQ(stirred.end, 0.01);
+  EXPECT_DOUBLE_EQ(kindOf<StirredKind>(stirred).vessels.inflows.at(0).massFlow, 3e-3);
+  EXPECT_EQ(kindOf<StirredKind>(stirred).vessels.inflows.at(0).temperature, 400);
+  EXPECT_EQ(kindOf<StirredKind>(stirred).start.given.value().temperature, 1500);
+  EXPECT_DOUBLE_EQ(kindOf<StirredKind>(stirred).start.given.value().pressure, 0.5 * 101325);
+  EXPECT_DOUBLE_EQ(stirred.kind->end(), 0.01);
 
   const ReactorCase network = reactor(R"(reactor: {type: network, start: fresh}
 network:
@@ -248,16 +249,16 @@ network:
   connections:
     - {from: one, to: two, fraction: 0.25}
 )");
-  EXPECT_FALSE(network.start.burnt);
-  EXPECT_FALSE(network.network.reactors.at(0).temperature);
-  EXPECT_EQ(network.network.reactors.at(1).temperature, 1300);
-  EXPECT_DOUBLE_EQ(network.network.reactors.at(1).residenceTime.value(), 2e-3);
-  EXPECT_EQ(network.network.inflows.at(1).to, 1U);
-  EXPECT_EQ(network.network.inflows.at(1).temperature, 500);
-  ASSERT_EQ(network.network.streams.size(), 1U);
-  EXPECT_EQ(network.network.streams[0].from, 0U);
-  EXPECT_EQ(network.network.streams[0].to, 1U);
-  EXPECT_NEAR(network.network.streams[0].massFlow, 0.25e-3, 1e-18);
+  EXPECT_FALSE(kindOf<StirredKind>(network).start.burnt);
+  EXPECT_FALSE(kindOf<StirredKind>(network).vessels.reactors.at(0).temperature);
+  EXPECT_EQ(kindOf<StirredKind>(network).vessels.reactors.at(1).temperature, 1300);
+  EXPECT_DOUBLE_EQ(kindOf<StirredKind>(network).vessels.reactors.at(1).residenceTime.value(), 2e-3);
+  EXPECT_EQ(kindOf<StirredKind>(network).vessels.inflows.at(1).to, 1U);
+  EXPECT_EQ(kindOf<StirredKind>(network).vessels.inflows.at(1).temperature, 500);
+  ASSERT_EQ(kindOf<StirredKind>(network).vessels.streams.size(), 1U);
+  EXPECT_EQ(kindOf<StirredKind>(network).vessels.streams[0].from, 0U);
+  EXPECT_EQ(kindOf<StirredKind>(network).vessels.streams[0].to, 1U);
+  EXPECT_NEAR(kindOf<StirredKind>(network).vessels.streams[0].massFlow, 0.25e-3, 1e-18);
 }
 
 TEST(DeckValues, OfAFlamesSolver) {

@@ -1,6 +1,4 @@
 // What reactor decks become: mixtures, flows in balance, the shipped cases.
-#include "app/problems/reactor/reactor_case.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +15,7 @@
 #include "core/modules.hpp"
 #include "core/text_file.hpp"
 #include "tests/app/app_fixture.hpp"
+#include "tests/app/kind_of.hpp"
 #include "tests/scratch.hpp"
 
 namespace lampblack::app {
@@ -38,7 +37,7 @@ TEST(ReactorCase, AnEquivalenceRatioIsThatOfTheAtoms) {
   const Mechanism& mechanism = *methane.mechanism;
   std::vector<double> Y(mechanism.numSpecies());
   Thermo(mechanism).moleToMass(parseComposition(mechanism, "CH4: 1, O2: 2, N2: 7.52"), Y);
-  for (std::size_t k = 0; k < Y.size(); ++k) EXPECT_NEAR(methane.initial.Y[k], Y[k], 1e-15);
+  for (std::size_t k = 0; k < Y.size(); ++k) EXPECT_NEAR(kindOf<ClosedKind>(methane).initial.Y[k], Y[k], 1e-15);
   // Oxygen in the fuel counts: CO + H2 + CH3OH need 1/2 + 1/2 + 3/2 O2.
   const auto X = mixByEquivalenceRatio(mechanism, parseComposition(mechanism, "CO: 1, H2: 1, CH3OH: 1"),
                                        parseComposition(mechanism, "O2: 1, N2: 3.76"), 2.0);
@@ -50,7 +49,7 @@ TEST(ReactorCase, AnEquivalenceRatioIsThatOfTheAtoms) {
 
 // 50 g/s come in and 30 % go round once more: F = 50 + 0.3 F.
 TEST(ReactorCase, FlowsOfANetworkAreInBalance) {
-  const ReactorNetwork network = shipped("reactor/network_combustor").network;
+  const ReactorNetwork network = kindOf<StirredKind>(shipped("reactor/network_combustor")).vessels;
   ASSERT_EQ(network.reactors.size(), 6U);
   EXPECT_NEAR(network.throughflow(0), 0.05 / 0.7, 1e-15);
   EXPECT_NEAR(network.throughflow(1), 0.3 * 0.05 / 0.7, 1e-15);
@@ -131,7 +130,9 @@ TEST(ReactorCase, LinesMayEndWithACarriageReturnAlone) {
 TEST(ReactorCase, ReactionsAreNamedByNumberOrEquation) {
   const auto path = test::sourceFolder / "cases/reactor/ignition_hydrogen/deck.yaml";
   const auto read = [&](const std::string& reactions) {
-    return readReactorCase(Deck::load(path, {"sensitivity.reactions=" + reactions}, reactorSchema())).sensitivities;
+    return kindOf<ClosedKind>(
+               readReactorCase(Deck::load(path, {"sensitivity.reactions=" + reactions}, reactorSchema())))
+        .sensitivities;
   };
   EXPECT_EQ(read("['11', 'O+H2<=>H + OH']"), (std::vector<std::size_t>{10, 2}));
   EXPECT_EQ(read("[all]").size(), 29U);
@@ -150,7 +151,7 @@ TEST(ReactorCase, TheRadicalOfADelayInAnyCase) {
                                        "time: {end: 1 ms}\n");
   const ReactorCase low = readReactorCase(Deck::load(deck, {}, reactorSchema()));
   std::vector<std::string> names;
-  for (const IgnitionCriterion& criterion : low.ignition) names.push_back(criterion.name);
+  for (const IgnitionCriterion& criterion : kindOf<ClosedKind>(low).ignition) names.push_back(criterion.name);
   EXPECT_THAT(names, testing::IsSupersetOf({"max_X_oh", "max_Y_oh"}));
 }
 

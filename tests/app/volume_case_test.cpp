@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/problems/reactor/reactor_case.hpp"
 #include "core/errors.hpp"
 #include "tests/app/app_fixture.hpp"
+#include "tests/app/kind_of.hpp"
 #include "tests/every_module.hpp"
 #include "tests/scratch.hpp"
 
@@ -18,13 +18,14 @@ namespace {
 using namespace lampblack;
 using namespace lampblack::app;
 
-ReactorCase volumeCase(const std::string& volume, const std::string& more = "",
-                       const std::string& type = "given_volume") {
-  return readReactorCase(
+ClosedKind volumeCase(const std::string& volume, const std::string& more = "",
+                      const std::string& type = "given_volume") {
+  const ReactorCase read = readReactorCase(
       Deck::parse("problem: reactor\nmechanism: mechanisms/hydrogen_h2o2_10.yaml\nreactor: {type: " + type +
                       "}\ninitial: {temperature: 900 K, composition: \"H2: 2, O2: 1, AR: 10\"}\ntime: {end: 20 ms}\n" +
                       (volume.empty() ? "" : "volume: {" + volume + "}\n") + more,
                   test::sourceFolder / "cases/deck.yaml", {}, reactorSchema()));
+  return kindOf<ClosedKind>(read);
 }
 
 std::string volumeMessage(const std::string& volume, const std::string& more = "",
@@ -41,17 +42,17 @@ const std::string crank =
     "law: slider_crank, bore: 73.4 mm, stroke: 78.6 mm, rod: 136 mm, compression_ratio: 9.6, speed: 1500 rpm";
 
 TEST(VolumeCase, EveryLawIsRead) {
-  const ReactorCase piston = volumeCase(crank + ", start_angle: -90 deg");
+  const ClosedKind piston = volumeCase(crank + ", start_angle: -90 deg");
   EXPECT_NEAR(*piston.angularSpeed, 50 * std::numbers::pi, 1e-12);
   EXPECT_NEAR(piston.ignitionFrom, 0.01, 1e-12);
   EXPECT_NEAR(piston.volume->ratio(0.01), 38.6728 / 229.5167, 1e-6);
-  const ReactorCase table = volumeCase("law: table, time: [0 ms, 10 ms, 20 ms], volume: [500 cm^3, 50 cm^3, 55 cm^3]");
+  const ClosedKind table = volumeCase("law: table, time: [0 ms, 10 ms, 20 ms], volume: [500 cm^3, 50 cm^3, 55 cm^3]");
   EXPECT_NEAR(table.volume->ratio(0.02), 0.11, 1e-12);
   EXPECT_EQ(table.ignitionFrom, 0.01);
-  const ReactorCase formula = volumeCase("law: formula, formula: '1 + 100*t'");
+  const ClosedKind formula = volumeCase("law: formula, formula: '1 + 100*t'");
   EXPECT_NEAR(formula.volume->ratio(0.02), 3, 1e-12);
   EXPECT_EQ(formula.ignitionFrom, 0);
-  const ReactorCase shock = volumeCase("law: pressure_rise, pressure_rise: 5 %/ms");
+  const ClosedKind shock = volumeCase("law: pressure_rise, pressure_rise: 5 %/ms");
   EXPECT_LT(shock.volume->ratio(0.02), 0.7);
   EXPECT_GT(shock.volume->ratio(0.02), 0.5);
   EXPECT_EQ(shock.ignitionFrom, 0);

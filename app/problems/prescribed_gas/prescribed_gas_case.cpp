@@ -12,8 +12,11 @@
 #include "app/problems/prescribed_gas/gas_table.hpp"
 #include "app/problems/prescribed_gas/given_gas_deck.hpp"
 #include "app/problems/reactor/reactor_case_parts.hpp"
+#include "app/problems/reactor/reactor_driver.hpp"
 #include "chemistry/mechanism/known_species.hpp"
 #include "core/errors.hpp"
+#include "coupling/gas_along.hpp"
+#include "coupling/split_gas.hpp"
 #include "io/request_limits.hpp"
 
 namespace lampblack::app {
@@ -63,34 +66,54 @@ std::vector<std::string> precursorsOf(const Deck& deck, const Mechanism& mechani
   return sootPrecursors(readSootModelOptions(deck, mechanism));
 }
 
+// A gas whose history is given, beside populations that may deplete species of it.
+struct GivenGasKind final : ReactorKind {
+  std::shared_ptr<const GasHistory> history;
+  std::vector<std::size_t> depleted;
+  std::vector<double> times;  // s, rising, of the rows
+
+  [[nodiscard]] std::unique_ptr<ReactorDriver> driver(const ReactorCase& reactorCase) const override {
+    return ensembleReactorDriver(reactorCase);
+  }
+  [[nodiscard]] RepeatGas repeatGas(const ReactorCase& reactorCase, ParticlesAtRest& carried,
+                                    SplitParticles* /*population*/) const override {
+    const auto along = std::make_shared<GasAlong>(*reactorCase.mechanism, *history, depleted, &carried);
+    return {along, splitGas(*along), along->initialState()};
+  }
+  [[nodiscard]] double begin() const override { return times.front(); }
+  [[nodiscard]] double end() const override { return times.back(); }
+  [[nodiscard]] std::vector<double> rows() const override { return times; }
+  [[nodiscard]] bool isGiven() const override { return true; }
+};
+
 // Trees, molecules, or ensembles that deplete the gas.
 ReactorCase readCoupled(const Deck& deck, const PrescribedGasCase& along) {
   const Mechanism& mechanism = *along.mechanism;
   ReactorCase coupled;
   coupled.title = along.title;
   coupled.mechanism = along.mechanism;
-  coupled.type = ReactorType::GivenGas;
   coupled.integrator = {relativeTolerance, absoluteTolerance, 0.0, mostSteps};
+  const auto given = std::make_shared<GivenGasKind>();
   const auto history = std::make_shared<GasHistory>(readHistory(deck, mechanism));
-  coupled.history = history;
-  coupled.rows = readRows(deck, history->time.front(), history->time.back());
-  coupled.end = coupled.rows.back();
+  given->history = history;
+  given->times = readRows(deck, history->time.front(), history->time.back());
   if (isTwoWay(deck)) {
     if (deck.has("gas.depleted")) {
-      coupled.depleted = readSpeciesList(deck, "gas.depleted", mechanism);
+      given->depleted = readSpeciesList(deck, "gas.depleted", mechanism);
     } else {
       for (const std::string& name : precursorsOf(deck, mechanism))
-        coupled.depleted.push_back(deck.at("gas.exchange", [&] { return mechanism.speciesIndex(name); }));
+        given->depleted.push_back(deck.at("gas.exchange", [&] { return mechanism.speciesIndex(name); }));
     }
   }
-  coupled.output.species = coupled.depleted;
+  coupled.output.species = given->depleted;
+  coupled.kind = given;
   reactorcase::readPopulations(deck, coupled);
   for (const double t : coupled.ensemble->tablesAt)
-    if (t < coupled.rows.front() || t > coupled.end)
+    if (t < given->begin() || t > given->end())
       throw deck.error("particles.tables_at",
-                       fmt::format("{:g} s is outside the run, {:g} to {:g} s", t, coupled.rows.front(), coupled.end));
+                       fmt::format("{:g} s is outside the run, {:g} to {:g} s", t, given->begin(), given->end()));
   const auto& seen = coupled.ensemble->species;
-  for (const std::size_t k : coupled.depleted)
+  for (const std::size_t k : given->depleted)
     if (std::ranges::find(seen, k) == seen.end())
       throw deck.error("gas.depleted",
                        fmt::format("particles exchange nothing of {}; leave it out", mechanism.speciesName(k)));

@@ -29,8 +29,8 @@ class PreparedPrescribedGas : public PreparedRun {
   [[nodiscard]] std::string summary() const override {
     if (case_.coupled)
       return fmt::format("{} repeats of {}, {:g} to {:g} s, {} rows", case_.coupled->ensemble->repeats,
-                         case_.coupled->ensemble->material, case_.coupled->rows.front(), case_.coupled->end,
-                         case_.coupled->rows.size());
+                         case_.coupled->ensemble->material, case_.coupled->kind->begin(), case_.coupled->kind->end(),
+                         case_.coupled->kind->rows().size());
     const auto& points = case_.path.points;
     const std::string what =
         case_.ensemble

@@ -9,7 +9,6 @@
 #include "app/deck/soot_deck.hpp"
 #include "app/deck/temperature_input.hpp"
 #include "app/problems/reactor/reactor_case_parts.hpp"
-#include "app/problems/reactor/reactor_driver.hpp"
 #include "app/problems/reactor/reactor_particle_output.hpp"
 #include "core/errors.hpp"
 #include "io/request_limits.hpp"
@@ -53,32 +52,47 @@ void refuseTimes(const Deck& deck) {
                        "give time.end");
 }
 
-void checkInterval(const Deck& deck, const std::string& key, const ReactorCase& reactorCase, double end,
-                   const std::string& endKey) {
+void checkInterval(const Deck& deck, const ReactorCase& reactorCase, double end, const std::string& endKey,
+                   const std::string& key = "output.interval") {
   if (reactorCase.output.interval && *reactorCase.output.interval > end)
     throw deck.error(key, fmt::format("expected no more than {}, {:g} (SI)", endKey, end));
 }
 
-void readClosed(const Deck& deck, ReactorCase& reactorCase) {
+std::shared_ptr<ClosedKind> readClosed(const Deck& deck, ReactorCase& reactorCase, ReactorSystem::Held held,
+                                       bool hasVolume) {
   if (!deck.has("initial")) throw deck.error("initial", "a closed reactor needs the section 'initial'");
   const Mechanism& mechanism = *reactorCase.mechanism;
-  reactorCase.initial = {readTemperature(deck, "initial.temperature", mechanism, TemperatureUse::reactor),
-                         deck.quantity("pressure"), readMixture(deck, "initial", *reactorCase.mechanism)};
-  reactorCase.profile = readEnergy(deck, reactorCase.initial.temperature, "time", mechanism);
-  reactorCase.end = neededQuantity(deck, "time", "end", "a closed reactor");
-  checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
-  if (reactorCase.type == ReactorType::GivenVolume) reactorcase::readVolume(deck, reactorCase);
-  reactorcase::readIgnition(deck, reactorCase);
-  reactorcase::readSensitivity(deck, reactorCase);
+  auto closed = std::make_shared<ClosedKind>();
+  closed->held = held;
+  closed->initial = {readTemperature(deck, "initial.temperature", mechanism, TemperatureUse::reactor),
+                     deck.quantity("pressure"), readMixture(deck, "initial", mechanism)};
+  reactorCase.profile = readEnergy(deck, closed->initial.temperature, "time", mechanism);
+  closed->duration = neededQuantity(deck, "time", "end", "a closed reactor");
+  checkInterval(deck, reactorCase, closed->duration, "time.end");
+  if (hasVolume) reactorcase::readVolume(deck, reactorCase, *closed);
+  reactorcase::readIgnition(deck, reactorCase, *closed);
+  reactorcase::readSensitivity(deck, reactorCase, *closed);
+  return closed;
 }
 
-void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
+std::shared_ptr<const ReactorKind> readConstantPressure(const Deck& deck, ReactorCase& reactorCase) {
+  return readClosed(deck, reactorCase, ReactorSystem::Held::Pressure, false);
+}
+std::shared_ptr<const ReactorKind> readConstantVolume(const Deck& deck, ReactorCase& reactorCase) {
+  return readClosed(deck, reactorCase, ReactorSystem::Held::Density, false);
+}
+std::shared_ptr<const ReactorKind> readGivenVolume(const Deck& deck, ReactorCase& reactorCase) {
+  return readClosed(deck, reactorCase, ReactorSystem::Held::Density, true);
+}
+
+std::shared_ptr<const ReactorKind> readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
   if (!deck.has("inlet")) throw deck.error("inlet", "a plug flow needs the section 'inlet'");
   const Mechanism& mechanism = *reactorCase.mechanism;
-  GasState& inlet = reactorCase.inlet;
+  auto duct = std::make_shared<PlugFlowKind>();
+  GasState& inlet = duct->inlet;
   inlet = {readTemperature(deck, "inlet.temperature", mechanism, TemperatureUse::reactor), deck.quantity("pressure"),
            readMixture(deck, "inlet", mechanism)};
-  reactorCase.length = neededQuantity(deck, "reactor", "length", "a plug flow");
+  duct->length = neededQuantity(deck, "reactor", "length", "a plug flow");
   reactorCase.profile = readEnergy(deck, inlet.temperature, "position", mechanism);
   if (deck.has("inlet.velocity") == deck.has("inlet.mass_flow"))
     throw deck.error("inlet", "a plug flow needs either 'velocity' or 'mass_flow'");
@@ -89,52 +103,48 @@ void readPlugFlow(const Deck& deck, ReactorCase& reactorCase) {
       throw deck.error(
           "reactor.area",
           "the area is only used with 'inlet.mass_flow', but 'inlet.velocity' is given; leave one of the two out");
-    reactorCase.massFlux = *velocity * density;
+    duct->massFlux = *velocity * density;
   } else {
-    reactorCase.massFlux =
+    duct->massFlux =
         deck.quantity("inlet.mass_flow") / neededQuantity(deck, "reactor", "area", "a plug flow with a mass flow");
   }
   requireLowMach(deck, deck.has("inlet.velocity") ? "inlet.velocity" : "inlet.mass_flow", thermo,
-                 reactorCase.massFlux / density, inlet.temperature, inlet.Y);
-  reactorcase::readUpstream(deck, reactorCase);
+                 duct->massFlux / density, inlet.temperature, inlet.Y);
+  reactorcase::readUpstream(deck, mechanism, *duct);
   reactorCase.output.interval = deck.optionalQuantity("output.spacing");
-  checkInterval(deck, "output.spacing", reactorCase, reactorCase.length, "reactor.length");
+  checkInterval(deck, reactorCase, duct->length, "reactor.length", "output.spacing");
+  return duct;
 }
 
 // Stirred reactors: the end is known, or zero.
-void checkTimes(const Deck& deck, const ReactorCase& reactorCase) {
-  if (reactorCase.end == 0)
+std::shared_ptr<const ReactorKind> checkedTimes(const Deck& deck, const ReactorCase& reactorCase, StirredKind stirred) {
+  if (stirred.duration == 0)
     refuseTimes(deck);
   else
-    checkInterval(deck, "output.interval", reactorCase, reactorCase.end, "time.end");
+    checkInterval(deck, reactorCase, stirred.duration, "time.end");
+  return std::make_shared<StirredKind>(std::move(stirred));
 }
 
-void readStirred(const Deck& deck, ReactorCase& reactorCase) {
-  reactorcase::readStirred(deck, reactorCase);
-  checkTimes(deck, reactorCase);
+std::shared_ptr<const ReactorKind> readStirred(const Deck& deck, ReactorCase& reactorCase) {
+  return checkedTimes(deck, reactorCase, reactorcase::readStirred(deck, *reactorCase.mechanism));
 }
 
-void readNetwork(const Deck& deck, ReactorCase& reactorCase) {
-  reactorcase::readNetwork(deck, reactorCase);
-  reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
-  if (reactorCase.end > 0 && !hasPopulation(deck))
+std::shared_ptr<const ReactorKind> readNetwork(const Deck& deck, ReactorCase& reactorCase) {
+  StirredKind network = reactorcase::readNetwork(deck, *reactorCase.mechanism);
+  if (network.duration > 0 && !hasPopulation(deck))
     throw deck.error("time.end",
                      "the steady state of a network is computed; only with an ensemble or trees of 'particles' "
                      "is it followed in time");
-  checkTimes(deck, reactorCase);
+  return checkedTimes(deck, reactorCase, std::move(network));
 }
 
-std::unique_ptr<ReactorDriver> stirredDriver(const ReactorCase& reactorCase) {
-  return reactorCase.end > 0 ? stirredTransientDriver(reactorCase) : steadyNetworkDriver(reactorCase);
-}
-
-// Rows are kept until the end: `range` is the time or length of the run.
-void refuseRows(const Deck& deck, const std::string& key, const ReactorCase& reactorCase, double range) {
+// Rows are kept until the end.
+void refuseRows(const Deck& deck, const ReactorCase& reactorCase) {
   if (!reactorCase.output.interval) return;
-  const double rows = range / *reactorCase.output.interval;
+  const std::string key = reactorCase.kind->intervalKey();
+  const double rows = reactorCase.kind->end() / *reactorCase.output.interval;
   std::size_t columns = 6 + reactorCase.output.species.size();
-  if (reactorCase.ensemble)
-    columns = 2 * (columns + 30) * std::max<std::size_t>(reactorCase.network.reactors.size(), 1);
+  if (reactorCase.ensemble) columns = 2 * (columns + 30) * reactorCase.kind->reactors();
   if (reactorCase.soot) columns += particleColumns(*reactorCase.soot).size();
   const double bytes = sizeof(double) * static_cast<double>(columns);
   requireOutputs(deck, key, "rows of the history", rows, bytes);
@@ -175,15 +185,13 @@ DeckKeys<StiffIntegrator::Options> reactorcase::integratorKeys() {
   return keys;
 }
 
-const std::vector<ReactorKind>& reactorKinds() {
-  using Type = ReactorType;
-  static const std::vector<ReactorKind> kinds{
-      {"constant_pressure", Type::ConstantPressure, readClosed, closedReactorDriver},
-      {"constant_volume", Type::ConstantVolume, readClosed, closedReactorDriver},
-      {"given_volume", Type::GivenVolume, readClosed, closedReactorDriver},
-      {"stirred", Type::Stirred, readStirred, stirredDriver},
-      {"plug_flow", Type::PlugFlow, readPlugFlow, plugFlowDriver},
-      {"network", Type::Network, readNetwork, steadyNetworkDriver}};
+const std::vector<reactorcase::NamedReactorKind>& reactorcase::reactorKinds() {
+  static const std::vector<NamedReactorKind> kinds{{"constant_pressure", readConstantPressure},
+                                                   {"constant_volume", readConstantVolume},
+                                                   {"given_volume", readGivenVolume},
+                                                   {"stirred", app::readStirred},
+                                                   {"plug_flow", readPlugFlow},
+                                                   {"network", app::readNetwork}};
   return kinds;
 }
 
@@ -198,13 +206,10 @@ ReactorCase readReactorCase(const Deck& deck) {
   reactorCase.output = {deck.optionalQuantity("output.interval"),
                         readSpeciesList(deck, "output.species", *reactorCase.mechanism),
                         deck.choice("output.fractions") == "mass"};
-  const ReactorKind& kind = *std::ranges::find(reactorKinds(), type, &ReactorKind::name);
-  reactorCase.type = kind.type;
-  kind.read(deck, reactorCase);
+  const auto& kinds = reactorcase::reactorKinds();
+  reactorCase.kind = std::ranges::find(kinds, type, &reactorcase::NamedReactorKind::name)->read(deck, reactorCase);
   readParticles(deck, reactorCase);
-  const bool plugFlow = reactorCase.type == ReactorType::PlugFlow;
-  refuseRows(deck, plugFlow ? "output.spacing" : "output.interval", reactorCase,
-             plugFlow ? reactorCase.length : reactorCase.end);
+  refuseRows(deck, reactorCase);
   return reactorCase;
 }
 

@@ -18,14 +18,14 @@ namespace lampblack::app::reactorcase {
 namespace {
 
 // The temperature of equilibrium in an adiabatic reactor; none where it cannot be computed.
-std::optional<double> burntTemperature(const ReactorCase& reactorCase) {
-  const double T = reactorCase.initial.temperature, p = reactorCase.initial.pressure;
-  const std::vector<double>& start = reactorCase.initial.Y;
-  const Thermo thermo(*reactorCase.mechanism);
+std::optional<double> burntTemperature(const Mechanism& mechanism, const ClosedKind& closed) {
+  const double T = closed.initial.temperature, p = closed.initial.pressure;
+  const std::vector<double>& start = closed.initial.Y;
+  const Thermo thermo(mechanism);
   std::vector<double> Y = start;
   try {
-    Equilibrium equilibrium(*reactorCase.mechanism);
-    if (reactorCase.type == ReactorType::ConstantPressure)
+    Equilibrium equilibrium(mechanism);
+    if (closed.held == ReactorSystem::Held::Pressure)
       return equilibrium.atEnthalpyAndPressure(thermo.enthalpyMass(T, Y), p, Y);
     return equilibrium.atEnergyAndDensity(thermo.internalEnergyMass(T, start), thermo.density(T, p, start), Y);
   } catch (const NumericsError&) {
@@ -34,26 +34,26 @@ std::optional<double> burntTemperature(const ReactorCase& reactorCase) {
 }
 
 // A gas that does not become hotter does not ignite.
-void requireIgnition(const Deck& deck, const std::string& key, const ReactorCase& reactorCase) {
-  const auto burnt = burntTemperature(reactorCase);
-  if (burnt && *burnt < reactorCase.initial.temperature + 1)
+void requireIgnition(const Deck& deck, const std::string& key, const Mechanism& mechanism, const ClosedKind& closed) {
+  const auto burnt = burntTemperature(mechanism, closed);
+  if (burnt && *burnt < closed.initial.temperature + 1)
     throw deck.error(key, fmt::format("this gas does not ignite: its equilibrium from {:g} K is at {:.6g} K",
-                                      reactorCase.initial.temperature, *burnt));
+                                      closed.initial.temperature, *burnt));
 }
 
 }  // namespace
 
-void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
+void readIgnition(const Deck& deck, const ReactorCase& reactorCase, ClosedKind& closed) {
   using Kind = IgnitionCriterion::Kind;
   const Mechanism& mechanism = *reactorCase.mechanism;
   const bool adiabatic = !reactorCase.profile;
-  auto& criteria = reactorCase.ignition;
+  auto& criteria = closed.ignition;
   if (adiabatic && deck.boolean("ignition.temperature_rate"))
     criteria.push_back({Kind::TemperatureRate, 0, 0.0, "max_dTdt"});
   if (adiabatic && deck.boolean("ignition.first_stage"))
     criteria.push_back({.kind = Kind::TemperatureRate, .name = "first_stage", .firstStage = true});
-  if (adiabatic && reactorCase.type != ReactorType::ConstantPressure && deck.boolean("ignition.pressure_rate")) {
-    const GasState& start = reactorCase.initial;
+  if (adiabatic && closed.held != ReactorSystem::Held::Pressure && deck.boolean("ignition.pressure_rate")) {
+    const GasState& start = closed.initial;
     const double density = Thermo(mechanism).density(start.temperature, start.pressure, start.Y);
     criteria.push_back({.kind = Kind::PressureRate, .name = "max_dpdt", .scale = density * constants::gasConstant});
   }
@@ -71,19 +71,19 @@ void readIgnition(const Deck& deck, ReactorCase& reactorCase) {
     criteria.push_back({Kind::MassFraction, k, 0.0, "max_Y_" + mechanism.speciesName(k)});
   }
   if (const auto rise = deck.optionalQuantity("ignition.temperature_rise")) {
-    if (!reactorCase.volume) requireIgnition(deck, "ignition.temperature_rise", reactorCase);
+    if (!closed.volume) requireIgnition(deck, "ignition.temperature_rise", mechanism, closed);
     criteria.push_back({Kind::TemperatureRise, 0, *rise, fmt::format("rise_{:g}K", *rise)});
   }
 }
 
-void readSensitivity(const Deck& deck, ReactorCase& reactorCase) {
+void readSensitivity(const Deck& deck, const ReactorCase& reactorCase, ClosedKind& closed) {
   if (!deck.has("sensitivity")) return;
-  if (reactorCase.ignition.empty())
+  if (closed.ignition.empty())
     throw deck.error(
         "sensitivity",
         "there is no ignition delay to compute sensitivities of; give a criterion in the section 'ignition'");
-  if (!reactorCase.profile) requireIgnition(deck, "sensitivity", reactorCase);
-  reactorCase.sensitivities = readSensitivityReactions(deck, *reactorCase.mechanism);
+  if (!reactorCase.profile) requireIgnition(deck, "sensitivity", *reactorCase.mechanism, closed);
+  closed.sensitivities = readSensitivityReactions(deck, *reactorCase.mechanism);
 }
 
 }  // namespace lampblack::app::reactorcase

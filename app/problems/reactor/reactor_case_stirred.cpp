@@ -150,9 +150,8 @@ void addNetworkKeys(DeckSchema& schema) {
   schema.add(keys.schema());
 }
 
-void readStirred(const Deck& deck, ReactorCase& reactorCase) {
+StirredKind readStirred(const Deck& deck, const Mechanism& mechanism) {
   if (!deck.has("inlet")) throw deck.error("inlet", "a stirred reactor needs the section 'inlet'");
-  const Mechanism& mechanism = *reactorCase.mechanism;
   const double pressure = deck.quantity("pressure");
   const double temperature = readTemperature(deck, "inlet.temperature", mechanism, TemperatureUse::reactor);
   StirredReactor reactor = readVessel(deck, "reactor", "reactor");
@@ -167,52 +166,55 @@ void readStirred(const Deck& deck, ReactorCase& reactorCase) {
     throw deck.error("inlet", "a stirred reactor with a volume needs the key 'mass_flow'");
   if (!massFlow && reactor.conductance > 0)
     throw deck.error("inlet", "a stirred reactor that loses heat needs the key 'mass_flow'");
-  reactorCase.network = {pressure,
-                         {reactor},
-                         {{0, massFlow.value_or(1.0), temperature, readMixture(deck, "inlet", *reactorCase.mechanism)}},
-                         {}};
-  reactorCase.start.burnt = deck.choice("reactor.start") == "burnt";
-  reactorCase.end = deck.optionalQuantity("time.end").value_or(0.0);
-  if (!deck.has("initial")) return;
+  StirredKind stirred;
+  stirred.vessels = {
+      pressure, {reactor}, {{0, massFlow.value_or(1.0), temperature, readMixture(deck, "inlet", mechanism)}}, {}};
+  stirred.start.burnt = deck.choice("reactor.start") == "burnt";
+  stirred.duration = deck.optionalQuantity("time.end").value_or(0.0);
+  if (!deck.has("initial")) return stirred;
   if (deck.isGiven("reactor.start"))
     throw deck.error(
         "reactor.start",
         "the section 'initial' already says from where the steady state is searched; leave one of the two out");
-  reactorCase.start.given = {readTemperature(deck, "initial.temperature", mechanism, TemperatureUse::reactor), pressure,
-                             readMixture(deck, "initial", *reactorCase.mechanism)};
+  stirred.start.given = {readTemperature(deck, "initial.temperature", mechanism, TemperatureUse::reactor), pressure,
+                         readMixture(deck, "initial", mechanism)};
+  return stirred;
 }
 
-void readNetwork(const Deck& deck, ReactorCase& reactorCase) {
+StirredKind readNetwork(const Deck& deck, const Mechanism& mechanism) {
   if (!deck.has("network")) throw deck.error("network", "a network needs the section 'network'");
-  ReactorNetwork& network = reactorCase.network;
+  StirredKind stirred;
+  stirred.isNetwork = true;
+  ReactorNetwork& network = stirred.vessels;
   network.pressure = deck.quantity("pressure");
   for (const std::string& name : deck.children("network.reactors")) {
     const std::string section = "network.reactors." + name;
     network.reactors.push_back(readVessel(deck, section, name));
     if (deck.has(section + ".temperature"))
       network.reactors.back().temperature =
-          readTemperature(deck, section + ".temperature", *reactorCase.mechanism, TemperatureUse::reactor);
+          readTemperature(deck, section + ".temperature", mechanism, TemperatureUse::reactor);
     refuseHeatLoss(deck, section, network.reactors.back());
   }
   for (const std::string& name : deck.children("network.inlets")) {
     const std::string section = "network.inlets." + name;
-    network.inflows.push_back(
-        {reactorNamed(deck, section + ".to", network), deck.quantity(section + ".mass_flow"),
-         readTemperature(deck, section + ".temperature", *reactorCase.mechanism, TemperatureUse::reactor),
-         readMixture(deck, section, *reactorCase.mechanism)});
+    network.inflows.push_back({reactorNamed(deck, section + ".to", network), deck.quantity(section + ".mass_flow"),
+                               readTemperature(deck, section + ".temperature", mechanism, TemperatureUse::reactor),
+                               readMixture(deck, section, mechanism)});
   }
   const auto connections = readConnections(deck, network);
   const auto flow = balancedFlows(deck, network, connections);
   for (const Connection& connection : connections)
     network.streams.push_back({connection.from, connection.to, connection.flow(flow[connection.from])});
-  reactorCase.start.burnt = deck.choice("reactor.start") == "burnt";
+  stirred.start.burnt = deck.choice("reactor.start") == "burnt";
+  stirred.duration = deck.optionalQuantity("time.end").value_or(0.0);
+  return stirred;
 }
 
-void readUpstream(const Deck& deck, ReactorCase& reactorCase) {
+void readUpstream(const Deck& deck, const Mechanism& mechanism, PlugFlowKind& duct) {
   if (!deck.has("upstream")) return;
   StirredReactor vessel = readVessel(deck, "upstream", "upstream");
   if (deck.has("upstream.temperature"))
-    vessel.temperature = readTemperature(deck, "upstream.temperature", *reactorCase.mechanism, TemperatureUse::reactor);
+    vessel.temperature = readTemperature(deck, "upstream.temperature", mechanism, TemperatureUse::reactor);
   refuseHeatLoss(deck, "upstream", vessel);
   const auto massFlow = deck.optionalQuantity("inlet.mass_flow");
   if (!massFlow && (vessel.volume || vessel.conductance > 0))
@@ -222,15 +224,14 @@ void readUpstream(const Deck& deck, ReactorCase& reactorCase) {
   if (deck.choice("reactor.energy") == "isothermal" && !deck.has("reactor.temperature"))
     throw deck.error("reactor.energy",
                      "behind a stirred reactor an isothermal duct needs the key 'reactor.temperature'");
-  const GasState& inlet = reactorCase.inlet;
-  reactorCase.upstream = {inlet.pressure, {vessel}, {{0, massFlow.value_or(1.0), inlet.temperature, inlet.Y}}, {}};
+  const GasState& inlet = duct.inlet;
+  duct.upstream = {inlet.pressure, {vessel}, {{0, massFlow.value_or(1.0), inlet.temperature, inlet.Y}}, {}};
   // Enough for any population: with a volume, the residence time is that of the cold gas at most.
   const double residence =
       vessel.residenceTime
           ? *vessel.residenceTime
-          : *vessel.volume * Thermo(*reactorCase.mechanism).density(inlet.temperature, inlet.pressure, inlet.Y) /
-                *massFlow;
-  reactorCase.upstreamTime = deck.number("upstream.residence_times") * residence;
+          : *vessel.volume * Thermo(mechanism).density(inlet.temperature, inlet.pressure, inlet.Y) / *massFlow;
+  duct.upstreamTime = deck.number("upstream.residence_times") * residence;
 }
 
 }  // namespace lampblack::app::reactorcase

@@ -24,55 +24,54 @@ constexpr double kIgnited = 50;
 
 class ClosedReactorDriver : public ReactorOfOneRank {
  public:
-  explicit ClosedReactorDriver(const ReactorCase& reactorCase)
+  ClosedReactorDriver(const ReactorCase& reactorCase, const ClosedKind& closed)
       : case_(reactorCase),
-        particles_(reactorCase, kept(reactorCase)),
-        history_(closedColumns(reactorCase), particles_.columns()),
-        events_(reactorCase.ignition.size()) {}
+        closed_(closed),
+        particles_(reactorCase, kept(reactorCase, closed)),
+        history_(closedColumns(reactorCase, closed), particles_.columns()),
+        events_(closed.ignition.size()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    ClosedReactor reactor(
-        *case_.mechanism, case_.initial,
-        case_.type == ReactorType::ConstantPressure ? ReactorSystem::Held::Pressure : ReactorSystem::Held::Density,
-        case_.profile, case_.particles.get(), case_.volume);
+    ClosedReactor reactor(*case_.mechanism, closed_.initial, closed_.held, case_.profile, case_.particles.get(),
+                          closed_.volume);
     StiffIntegrator integrator(reactor, case_.integrator);
-    IgnitionMonitor monitor(*case_.mechanism, reactor, case_.ignition, case_.volume ? &*case_.volume : nullptr);
+    IgnitionMonitor monitor(*case_.mechanism, reactor, closed_.ignition, closed_.volume ? &*closed_.volume : nullptr);
     const std::vector<double> start = reactor.initialState();
     startTemperature_ = start[case_.mechanism->numSpecies()];
-    integrator.start(0.0, start, case_.end);
-    if (case_.ignitionFrom == 0) monitor.begin(0.0, start.data());
+    integrator.start(0.0, start, closed_.duration);
+    if (closed_.ignitionFrom == 0) monitor.begin(0.0, start.data());
     history_.open(folder.history());
     history_.follow(
-        integrator, case_.output.interval, case_.end, [&](double time) { return nextStop(time); },
+        integrator, case_.output.interval, closed_.duration, [&](double time) { return nextStop(time); },
         [&](double time, std::span<const double> y) {
-          std::vector<double> row = closedRow(case_, reactor, time, y);
+          std::vector<double> row = closedRow(case_, closed_, reactor, time, y);
           particles_.append(reactor.pressure(time, y.data()), reactor.density(time, y.data()), y, row);
           return row;
         },
         [&] {
-          if (integrator.time() == case_.ignitionFrom) {
+          if (integrator.time() == closed_.ignitionFrom) {
             const std::span<const double> y = integrator.state();
             compressed_ = {y[case_.mechanism->numSpecies()], reactor.pressure(integrator.time(), y.data()),
                            heatedByReactions(start, y)};
             monitor.begin(integrator.time(), y.data());
-          } else if (integrator.time() > case_.ignitionFrom) {
+          } else if (integrator.time() > closed_.ignitionFrom) {
             monitor.observe(integrator);
           }
         });
     events_ = monitor.events();
     for (auto& event : events_)
-      if (event) event->time -= case_.ignitionFrom;
+      if (event) event->time -= closed_.ignitionFrom;
     statistics_ = integrator.statistics();
     endTemperature_ = integrator.state()[case_.mechanism->numSpecies()];
     endPressure_ = reactor.pressure(integrator.time(), integrator.state().data());
     reached_ = integrator.time();
     seconds_ = MPI_Wtime() - begin;
     particles_.requireSizeRangeCovered();
-    if (case_.sensitivities.empty() || reached_ < case_.end) return;
-    reactor.setParameters(case_.sensitivities);
+    if (closed_.sensitivities.empty() || reached_ < closed_.duration) return;
+    reactor.setParameters(closed_.sensitivities);
     Progress progress(MPI_COMM_SELF, 0, 1, Progress::logInterval);
-    sensitivities_ = ignitionSensitivities(*case_.mechanism, reactor, case_.integrator, case_.ignition, events_,
+    sensitivities_ = ignitionSensitivities(*case_.mechanism, reactor, case_.integrator, closed_.ignition, events_,
                                            [&](double time, double end) {
                                              if (progress.due())
                                                progress.say(fmt::format("sensitivities, t {:.4g} s", time), time / end);
@@ -81,24 +80,25 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     progress.finish();
     sensitivitySeconds_ = MPI_Wtime() - begin - seconds_;
     if (stopRequest() != 0) return;
-    writeFileAtomically(folder.file("sensitivities.csv"), sensitivityTable(*case_.mechanism, case_.sensitivities,
-                                                                           namedSensitivities(case_, sensitivities_)));
+    writeFileAtomically(
+        folder.file("sensitivities.csv"),
+        sensitivityTable(*case_.mechanism, closed_.sensitivities, namedSensitivities(closed_, sensitivities_)));
   }
 
   void write(ResultsWriter& results) const override {
     history_.writeTo(results);
     particles_.write(results);
-    writeIgnition(results, case_, events_);
+    writeIgnition(results, *case_.mechanism, closed_, events_);
     // Rank 0 alone knows how far it came; what it has not computed is NaN.
-    if (!case_.sensitivities.empty())
-      writeSensitivities(results, case_.sensitivities, namedSensitivities(case_, sensitivities_),
+    if (!closed_.sensitivities.empty())
+      writeSensitivities(results, closed_.sensitivities, namedSensitivities(closed_, sensitivities_),
                          "d ln(ignition delay) / d ln(rate constant)");
   }
 
   void record(JsonWriter& json) const override {
     json.key("ignition_delays_s").beginObject();
-    for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
-      json.key(case_.ignition[i].name);
+    for (std::size_t i = 0; i < closed_.ignition.size(); ++i) {
+      json.key(closed_.ignition[i].name);
       if (events_[i])
         json.value(events_[i]->time);
       else
@@ -106,7 +106,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     }
     json.endObject();
     if (compressed_)
-      json.field("end_of_compression_s", case_.ignitionFrom)
+      json.field("end_of_compression_s", closed_.ignitionFrom)
           .field("heated_until_then_K", compressed_->heated)
           .field("compressed_temperature_K", compressed_->temperature)
           .field("compressed_pressure_Pa", compressed_->pressure);
@@ -118,28 +118,28 @@ class ClosedReactorDriver : public ReactorOfOneRank {
 
   void print() const override {
     if (compressed_)
-      fmt::print("compressed at {:.6e} s to {:.2f} K and {:.6g} Pa; delays count from there\n", case_.ignitionFrom,
+      fmt::print("compressed at {:.6e} s to {:.2f} K and {:.6g} Pa; delays count from there\n", closed_.ignitionFrom,
                  compressed_->temperature, compressed_->pressure);
     if (compressed_ && compressed_->heated > kHeated)
       fmt::print(
           "note: reactions heated the gas by {:.0f} K before the end of compression; 'ignition.from: start' counts "
           "delays from the start\n",
           compressed_->heated);
-    for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
-      const std::string what = describe(case_.ignition[i], *case_.mechanism);
+    for (std::size_t i = 0; i < closed_.ignition.size(); ++i) {
+      const std::string what = describe(closed_.ignition[i], *case_.mechanism);
       if (events_[i])
         fmt::print("ignition delay, {:<32} {:.6e} s\n", what, events_[i]->time);
       else
-        fmt::print("ignition delay, {:<32} none in {:g} s\n", what, case_.end);
+        fmt::print("ignition delay, {:<32} none in {:g} s\n", what, closed_.duration);
     }
-    if (!case_.profile && !case_.ignition.empty() && std::abs(endTemperature_ - startTemperature_) < kIgnited)
+    if (!case_.profile && !closed_.ignition.empty() && std::abs(endTemperature_ - startTemperature_) < kIgnited)
       fmt::print("note: the temperature changed by {:.2g} K only; this gas has not ignited\n",
                  endTemperature_ - startTemperature_);
-    fmt::print("T = {:.4f} K, p = {:.6g} Pa after {:g} s\n", endTemperature_, endPressure_, case_.end);
+    fmt::print("T = {:.4f} K, p = {:.6g} Pa after {:g} s\n", endTemperature_, endPressure_, closed_.duration);
     particles_.print();
     fmt::print("{} steps, {} rate and {} Jacobian evaluations of the integrator in {}\n", statistics_.steps,
                statistics_.rateEvaluations, statistics_.jacobianEvaluations, formatDuration(seconds_));
-    if (!case_.sensitivities.empty()) printSensitivities();
+    if (!closed_.sensitivities.empty()) printSensitivities();
   }
 
   long steps() const override { return statistics_.steps; }
@@ -148,30 +148,30 @@ class ClosedReactorDriver : public ReactorOfOneRank {
  private:
   // The reactions the delay depends on most, by the first criterion that was met; all are in the files.
   void printSensitivities() const {
-    fmt::print("sensitivities to {} reactions: {} steps in {}\n", case_.sensitivities.size(),
+    fmt::print("sensitivities to {} reactions: {} steps in {}\n", closed_.sensitivities.size(),
                sensitivities_.statistics.steps, formatDuration(sensitivitySeconds_));
-    for (std::size_t i = 0; i < case_.ignition.size(); ++i) {
+    for (std::size_t i = 0; i < closed_.ignition.size(); ++i) {
       const auto& values = sensitivities_.values[i];
       if (values.empty()) continue;
-      fmt::print("\nd ln tau / d ln k by {}\n", describe(case_.ignition[i], *case_.mechanism));
-      fmt::print("{}", largestSensitivities(*case_.mechanism, case_.sensitivities, values, "exactly -1"));
+      fmt::print("\nd ln tau / d ln k by {}\n", describe(closed_.ignition[i], *case_.mechanism));
+      fmt::print("{}", largestSensitivities(*case_.mechanism, closed_.sensitivities, values, "exactly -1"));
       return;
     }
   }
 
-  static ReactorParticleOutput::Kept kept(const ReactorCase& reactorCase) {
+  static ReactorParticleOutput::Kept kept(const ReactorCase& reactorCase, const ClosedKind& closed) {
     using Kept = ReactorParticleOutput::Kept;
-    if (reactorCase.profile || reactorCase.volume) return Kept::elements;
-    return reactorCase.type == ReactorType::ConstantPressure ? Kept::enthalpy : Kept::internalEnergy;
+    if (reactorCase.profile || closed.volume) return Kept::elements;
+    return closed.held == ReactorSystem::Held::Pressure ? Kept::enthalpy : Kept::internalEnergy;
   }
 
   // Kinks of what is given in time, and the end of a compression.
   double nextStop(double time) const {
-    double next = case_.end;
+    double next = closed_.duration;
     if (case_.profile) next = std::min(next, case_.profile->nextKink(time).value_or(next));
-    if (case_.ignitionFrom > time) next = std::min(next, case_.ignitionFrom);
-    if (case_.volume)
-      for (const double kink : case_.volume->kinks())
+    if (closed_.ignitionFrom > time) next = std::min(next, closed_.ignitionFrom);
+    if (closed_.volume)
+      for (const double kink : closed_.volume->kinks())
         if (kink > time) next = std::min(next, kink);
     return next;
   }
@@ -190,6 +190,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
   }
 
   const ReactorCase& case_;
+  const ClosedKind& closed_;
   std::optional<Compressed> compressed_;  // where delays count from the end of a compression
   ReactorParticleOutput particles_;
   ReactorHistory history_;
@@ -203,8 +204,8 @@ class ClosedReactorDriver : public ReactorOfOneRank {
 
 }  // namespace
 
-std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCase) {
-  return std::make_unique<ClosedReactorDriver>(reactorCase);
+std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCase, const ClosedKind& closed) {
+  return std::make_unique<ClosedReactorDriver>(reactorCase, closed);
 }
 
 }  // namespace lampblack::app

@@ -5,10 +5,8 @@
 #include <mpi.h>
 
 #include <memory>
-#include <string>
-#include <vector>
 
-#include "app/problems/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_kind.hpp"
 #include "app/run/recorded_run.hpp"
 #include "core/errors.hpp"
 #include "core/modules.hpp"
@@ -56,21 +54,11 @@ class ReactorOfOneRank : public ReactorDriver {
 // Collective, of a recorded run: computes, writes the results and says what came out.
 void runDriver(MPI_Comm comm, ReactorDriver& driver, const RunFolder& folder, const RunInfo& info, RunRecord& record);
 
-// The drivers refer to the case, which has to live as long.
-std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCase);
-std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase);
-std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase);
-std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase);
+// The drivers refer to the case and its kind, which have to live as long.
+std::unique_ptr<ReactorDriver> closedReactorDriver(const ReactorCase& reactorCase, const ClosedKind& closed);
+std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase, const PlugFlowKind& duct);
+std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase, const StirredKind& stirred);
+std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase, const StirredKind& stirred);
 std::unique_ptr<ReactorDriver> ensembleReactorDriver(const ReactorCase& reactorCase);
-
-// The kinds of reactors that decks name, in the order of their reference: what reads the sections of each, and what
-// runs it without a population.
-struct ReactorKind {
-  std::string name;  // of reactor.type
-  ReactorType type;
-  void (*read)(const Deck& deck, ReactorCase& reactorCase);
-  std::unique_ptr<ReactorDriver> (*driver)(const ReactorCase& reactorCase);
-};
-const std::vector<ReactorKind>& reactorKinds();
 
 }  // namespace lampblack::app

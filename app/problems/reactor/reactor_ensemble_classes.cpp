@@ -16,7 +16,7 @@ std::size_t EnsembleClasses::size(const ReactorCase& reactorCase) {
   std::size_t size = 0;
   for (const ReactorPopulations::Classes& by : reactorCase.ensemble->classes)
     size += (by.edges.size() + 1) * (1 + averages);
-  return size * numReactors(reactorCase);
+  return size * reactorCase.kind->reactors();
 }
 
 EnsembleClasses::EnsembleClasses(const ReactorCase& reactorCase, const ReactorRepeatShape& shape) : rows_(shape.rows) {
@@ -26,11 +26,11 @@ EnsembleClasses::EnsembleClasses(const ReactorCase& reactorCase, const ReactorRe
   const std::vector<Quantity> sortedBy = made->classedBy();
   averages_ = averages.size();
   std::size_t first = 0;
-  for (std::size_t r = 0; r < numReactors(reactorCase); ++r)
+  for (std::size_t r = 0; r < reactorCase.kind->reactors(); ++r)
     for (const ReactorPopulations::Classes& by : reactorCase.ensemble->classes) {
       const Quantity& quantity = sortedBy[by.by];
-      Sorted sorted{reactorPrefix(reactorCase, r) + quantity.name, by.edges, first, {}, {}};
-      sorted.columns = {columnsOfPlace(reactorCase)[0],
+      Sorted sorted{reactorCase.kind->prefix(r) + quantity.name, by.edges, first, {}, {}};
+      sorted.columns = {reactorCase.kind->placeColumns()[0],
                         {"from", quantity.unit, "lower end of the class, of " + quantity.description},
                         {"to", quantity.unit, "upper end of the class"}};
       addRepeatColumns({"fraction", "1", "part of all particles that is in the class"}, sorted.columns);

@@ -7,35 +7,9 @@
 
 namespace lampblack::app {
 
-std::size_t numReactors(const ReactorCase& reactorCase) {
-  return reactorCase.type == ReactorType::Network ? reactorCase.network.reactors.size() : 1;
-}
-
-bool isOpen(const ReactorCase& reactorCase) {
-  return reactorCase.type == ReactorType::Stirred || reactorCase.type == ReactorType::Network;
-}
-
-std::string reactorPrefix(const ReactorCase& reactorCase, std::size_t reactor) {
-  return reactorCase.type == ReactorType::Network ? reactorCase.network.reactors[reactor].name + "_" : "";
-}
-
-double beginOf(const ReactorCase& reactorCase) {
-  return reactorCase.type == ReactorType::GivenGas ? reactorCase.rows.front() : 0;
-}
-
 bool keepsEnergy(const ReactorCase& reactorCase) {
-  return !isOpen(reactorCase) && !reactorCase.profile && reactorCase.type != ReactorType::GivenGas;
-}
-
-double endOf(const ReactorCase& reactorCase) {
-  return reactorCase.type == ReactorType::PlugFlow ? reactorCase.length : reactorCase.end;
-}
-
-std::vector<Quantity> columnsOfPlace(const ReactorCase& reactorCase) {
-  if (reactorCase.type != ReactorType::PlugFlow) return {{"time", "s", "time"}};
-  return {{"position", "m", "distance from the inlet"},
-          {"time", "s", "residence time since the inlet"},
-          {"velocity", "m/s", "velocity of gas and particles"}};
+  const ReactorKind& kind = *reactorCase.kind;
+  return kind.network() == nullptr && !reactorCase.profile && !kind.isGiven();
 }
 
 std::vector<Quantity> ensembleColumns(const ReactorCase& reactorCase, bool hasElements) {
@@ -48,28 +22,29 @@ std::vector<Quantity> ensembleColumns(const ReactorCase& reactorCase, bool hasEl
                        "particles that come and go, zero in the mean"});
   if (hasElements)
     ofReactor.push_back({"element_imbalance", "1",
-                         isOpen(reactorCase) ? "largest relative difference of an element in gas and particles from "
-                                               "what flows in"
-                                             : "largest relative change of an element in gas and particles"});
+                         (reactorCase.kind->network() != nullptr)
+                             ? "largest relative difference of an element in gas and particles from "
+                               "what flows in"
+                             : "largest relative change of an element in gas and particles"});
   if (keepsEnergy(reactorCase))
     ofReactor.push_back({"energy_imbalance", "1", "change of the energy of gas and particles over cp T"});
   for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output))
     ofReactor.push_back(std::move(column));
-  std::vector<Quantity> columns = columnsOfPlace(reactorCase);
-  for (std::size_t r = 0; r < numReactors(reactorCase); ++r)
+  std::vector<Quantity> columns = reactorCase.kind->placeColumns();
+  for (std::size_t r = 0; r < reactorCase.kind->reactors(); ++r)
     for (const Quantity& column : ofReactor)
-      columns.push_back({reactorPrefix(reactorCase, r) + column.name, column.unit, column.description});
+      columns.push_back({reactorCase.kind->prefix(r) + column.name, column.unit, column.description});
   return columns;
 }
 
 std::vector<std::size_t> shownColumns(const ReactorCase& reactorCase, const std::vector<Quantity>& all) {
   std::vector<std::size_t> columns;
   const std::string& material = reactorCase.ensemble->material;
-  for (std::size_t r = 0; r < numReactors(reactorCase); ++r)
+  for (std::size_t r = 0; r < reactorCase.kind->reactors(); ++r)
     for (const std::string& name : {std::string("temperature"), material + "_volume_fraction",
                                     material + "_number_density", material + "_mean_diameter"}) {
-      const auto found = std::find_if(
-          all.begin(), all.end(), [&](const Quantity& c) { return c.name == reactorPrefix(reactorCase, r) + name; });
+      const auto found = std::find_if(all.begin(), all.end(),
+                                      [&](const Quantity& c) { return c.name == reactorCase.kind->prefix(r) + name; });
       columns.push_back(static_cast<std::size_t>(found - all.begin()));
     }
   return columns;

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/problems/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_kind.hpp"
 #include "core/modules.hpp"
 #include "core/quantity.hpp"
 
@@ -16,21 +16,10 @@ namespace lampblack::app {
 // Bins of the distributions of numbers from zero to one.
 inline constexpr std::size_t shareBins = 50;
 
-// The number of reactors: one, but for a network.
-[[nodiscard]] std::size_t numReactors(const ReactorCase& reactorCase);
-// Stirred, alone or in a network.
-[[nodiscard]] bool isOpen(const ReactorCase& reactorCase);
-// Of the names of a reactor's columns: a network has several of each.
-[[nodiscard]] std::string reactorPrefix(const ReactorCase& reactorCase, std::size_t reactor);
-// s, of a plug flow m.
-[[nodiscard]] double beginOf(const ReactorCase& reactorCase);
-[[nodiscard]] double endOf(const ReactorCase& reactorCase);
 // Whether gas and particles together keep their energy.
 [[nodiscard]] bool keepsEnergy(const ReactorCase& reactorCase);
 
-// Of the place and what goes with it, which rows begin with; of the whole row, `hasElements` with the balance of
-// elements.
-[[nodiscard]] std::vector<Quantity> columnsOfPlace(const ReactorCase& reactorCase);
+// Of a whole row, `hasElements` with the balance of elements.
 [[nodiscard]] std::vector<Quantity> ensembleColumns(const ReactorCase& reactorCase, bool hasElements);
 // Numbers of the columns for the console, of each reactor.
 [[nodiscard]] std::vector<std::size_t> shownColumns(const ReactorCase& reactorCase,

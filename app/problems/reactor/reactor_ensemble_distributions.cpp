@@ -18,8 +18,8 @@ EnsembleDistributions::EnsembleDistributions(const ReactorCase& reactorCase)
     first += binsOf(isShare);
     hasShares_ = hasShares_ || isShare;
   };
-  for (std::size_t r = 0; r < numReactors(reactorCase); ++r) {
-    const std::string prefix = reactorPrefix(reactorCase, r);
+  for (std::size_t r = 0; r < reactorCase.kind->reactors(); ++r) {
+    const std::string prefix = reactorCase.kind->prefix(r);
     for (const auto& d : population->distributions())
       add(prefix + d.name + "size_distribution", "dN/dlog10 d, " + d.description, false);
     for (const auto& d : population->shares()) add(prefix + d.name + "_distribution", "dN/dx, " + d.description, true);

@@ -1,49 +1,35 @@
-// The equations of the gas of a case whose particles are ensembles, for one repeat: a closed reactor, a plug flow, or
-// stirred reactors, one or a network; or a gas whose history is given.
+// The equations of the gas of a case whose particles are ensembles, for one repeat.
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "app/problems/reactor/reactor_case.hpp"
-#include "chemistry/reactor/plug_flow.hpp"
+#include "app/problems/reactor/reactor_kind.hpp"
 #include "core/modules.hpp"
-#include "coupling/gas_along.hpp"
 #include "coupling/split_reactor.hpp"
 
 namespace lampblack::app {
 
+SplitReactor::Options splitOptions(const ReactorCase& reactorCase);
+
 class EnsembleGas {
  public:
-  // The case has to live as long. `inlet`: of a plug flow, where it is not that of the case.
-  explicit EnsembleGas(const ReactorCase& reactorCase, const std::optional<GasState>& inlet = std::nullopt);
+  // The case has to live as long. `population`: as ReactorKind::repeatGas.
+  explicit EnsembleGas(const ReactorCase& reactorCase, SplitParticles* population = nullptr);
   EnsembleGas(const EnsembleGas&) = delete;
   EnsembleGas& operator=(const EnsembleGas&) = delete;
 
-  [[nodiscard]] const SplitReactor::Gas& gas() const { return gas_; }
-  [[nodiscard]] const std::vector<double>& start() const { return start_; }
+  [[nodiscard]] const SplitReactor::Gas& gas() const { return made_.gas; }
+  [[nodiscard]] const std::vector<double>& start() const { return made_.start; }
   [[nodiscard]] ParticlesAtRest& particles() { return *particles_; }
   // s, where the unknowns are y at x
-  [[nodiscard]] double time(double x, std::span<const double> y) const {
-    return plugFlow_ ? plugFlow_->residenceTime(y.data()) : x;
-  }
+  [[nodiscard]] double time(double x, std::span<const double> y) const { return made_.time(x, y); }
 
  private:
-  void carryByPlugFlow(const GasState& inlet);
-  void carryByNetwork();
-  void carryByClosedReactor();
-  void carryByGivenGas();
-
   const ReactorCase& case_;
   std::unique_ptr<ParticlesAtRest> particles_;
-  std::optional<ClosedReactor> closed_;
-  std::optional<PlugFlow> plugFlow_;
-  std::optional<NetworkSystem> network_;
-  std::optional<GasAlong> along_;
-  SplitReactor::Gas gas_;
-  std::vector<double> start_;
+  RepeatGas made_;
 };
 
 }  // namespace lampblack::app

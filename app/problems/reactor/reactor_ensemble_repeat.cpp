@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "app/problems/reactor/reactor_output.hpp"
-#include "app/problems/reactor/reactor_upstream.hpp"
 #include "core/errors.hpp"
 
 namespace lampblack::app {
@@ -17,7 +16,7 @@ using Kept = SplitReactor::Gas::Kept;
 
 // Elements (kg/kg) of all that flows into an open reactor and of its start; empty where they differ.
 std::vector<double> elementsOfInflow(const ReactorCase& reactorCase, const ReactorBalance& balance) {
-  const std::vector<double> none(reactorCase.ensemble->elements.size() + numReactors(reactorCase), 0.0);
+  const std::vector<double> none(reactorCase.ensemble->elements.size() + reactorCase.kind->reactors(), 0.0);
   constexpr double same = 1e-14;
   std::vector<double> first;
   const auto agrees = [&](const std::vector<double>& Y) {
@@ -27,32 +26,19 @@ std::vector<double> elementsOfInflow(const ReactorCase& reactorCase, const React
       if (std::abs(elements[e] - first[e]) > same) return false;
     return true;
   };
-  for (const InflowStream& stream : reactorCase.network.inflows)
+  for (const InflowStream& stream : reactorCase.kind->network()->inflows)
     if (!agrees(stream.Y)) return {};
-  if (reactorCase.start.given && !agrees(reactorCase.start.given->Y)) return {};
+  if (const GasState* start = reactorCase.kind->givenStart(); start != nullptr && !agrees(start->Y)) return {};
   return first;
 }
 
 std::vector<std::unique_ptr<ReactorPopulation>> makePopulations(const ReactorCase& reactorCase, std::uint64_t repeat) {
-  const std::size_t reactors = numReactors(reactorCase);
+  const std::size_t reactors = reactorCase.kind->reactors();
   std::vector<std::unique_ptr<ReactorPopulation>> all;
   const ReactorPopulations& of = *reactorCase.ensemble;
   for (std::size_t r = 0; r < reactors; ++r)
     all.push_back(std::make_unique<ReactorPopulation>(of.make(repeat * reactors + r), of.viscosity));
   return all;
-}
-
-SplitReactor::Options splitOptions(const ReactorCase& reactorCase) {
-  SplitReactor::Options split;
-  split.integrator = reactorCase.integrator;
-  split.change = reactorCase.couplingChange;
-  return split;
-}
-
-// What a plug flow begins with behind another reactor, with these particles.
-std::optional<GasState> inletOf(const ReactorCase& reactorCase, SplitParticles& particles) {
-  if (!reactorCase.upstream) return {};
-  return upstreamWithPopulation(reactorCase, particles, splitOptions(reactorCase));
 }
 
 std::vector<SplitParticles*> pointersTo(const std::vector<std::unique_ptr<ReactorPopulation>>& populations) {
@@ -64,9 +50,9 @@ std::vector<SplitParticles*> pointersTo(const std::vector<std::unique_ptr<Reacto
 }  // namespace
 
 bool hasElementBalance(const ReactorCase& reactorCase) {
-  if (reactorCase.type == ReactorType::GivenGas) return false;
-  if (!isOpen(reactorCase)) return true;
-  ParticlesAtRest particles(numReactors(reactorCase), reactorCase.ensemble->elements);
+  if (reactorCase.kind->isGiven()) return false;
+  if (!(reactorCase.kind->network() != nullptr)) return true;
+  ParticlesAtRest particles(reactorCase.kind->reactors(), reactorCase.ensemble->elements);
   const ReactorBalance balance(*reactorCase.mechanism, particles, particles.unitElements(*reactorCase.mechanism));
   return !elementsOfInflow(reactorCase, balance).empty();
 }
@@ -75,13 +61,13 @@ EnsembleRepeat::EnsembleRepeat(const ReactorCase& reactorCase, std::uint64_t rep
     : case_(reactorCase),
       repeat_(repeat),
       populations_(makePopulations(reactorCase, repeat)),
-      gas_(reactorCase, inletOf(reactorCase, *populations_[0])),
+      gas_(reactorCase, populations_[0].get()),
       balance_(*reactorCase.mechanism, gas_.particles(), gas_.particles().unitElements(*reactorCase.mechanism)),
       thermo_(*reactorCase.mechanism),
       hasElements_(hasElementBalance(reactorCase)) {
   reactor_.emplace(*case_.mechanism, gas_.gas(), pointersTo(populations_), splitOptions(case_));
-  reactor_->start(beginOf(case_), gas_.start());
-  if (isOpen(case_)) elements_ = elementsOfInflow(case_, balance_);
+  reactor_->start(case_.kind->begin(), gas_.start());
+  if ((case_.kind->network() != nullptr)) elements_ = elementsOfInflow(case_, balance_);
 }
 
 void EnsembleRepeat::run(std::span<const double> places, const ReactorRepeatNumbers<double>& numbers,
@@ -115,7 +101,7 @@ void EnsembleRepeat::run(std::span<const double> places, const ReactorRepeatNumb
 void EnsembleRepeat::fill(std::size_t row, const ReactorRepeatNumbers<double>& numbers) {
   const ReactorPopulations& asked = *case_.ensemble;
   std::vector<double> columns{reactor_->position()}, densities, classes;
-  if (case_.type == ReactorType::PlugFlow)
+  if (case_.kind->placeColumns().size() > 1)
     columns.insert(columns.end(), {gas_.time(reactor_->position(), reactor_->state()),
                                    1 / gas_.gas().timePerUnit(reactor_->state().data())});
   const auto append = [](std::vector<double>& all, const std::vector<double>& more) {

@@ -31,12 +31,10 @@ namespace {
 constexpr std::size_t defaultRows = 100;
 
 std::vector<double> rowPlaces(const ReactorCase& reactorCase) {
-  const double end = endOf(reactorCase);
+  const double end = reactorCase.kind->end();
   const double interval = reactorCase.output.interval.value_or(end / static_cast<double>(defaultRows));
-  std::vector<double> places;
-  if (reactorCase.type == ReactorType::GivenGas) {
-    places = reactorCase.rows;
-  } else {
+  std::vector<double> places = reactorCase.kind->rows();
+  if (places.empty()) {
     for (std::size_t i = 0; static_cast<double>(i) * interval < end * (1 - 1e-9); ++i)
       places.push_back(static_cast<double>(i) * interval);
     places.push_back(end);
@@ -54,8 +52,9 @@ ReactorRepeatShape shapeOf(const ReactorCase& reactorCase, std::size_t rows, std
   ReactorRepeatShape shape;
   shape.rows = rows;
   shape.columns = columns;
-  shape.densities = numReactors(reactorCase) * (population->distributions().size() * reactorCase.ensemble->bins.count +
-                                                population->shares().size() * shareBins);
+  shape.densities =
+      reactorCase.kind->reactors() *
+      (population->distributions().size() * reactorCase.ensemble->bins.count + population->shares().size() * shareBins);
   shape.classes = EnsembleClasses::size(reactorCase);
   shape.counts = population->counts().size();
   return shape;
@@ -68,7 +67,7 @@ class EnsembleReactorDriver : public ReactorDriver {
         places_(rowPlaces(reactorCase)),
         columns_(ensembleColumns(reactorCase, hasElementBalance(reactorCase))),
         shape_(shapeOf(reactorCase, places_.size(), columns_.size())),
-        summary_(columns_, shape_, isOpen(reactorCase) ? shown() : std::vector<std::size_t>{}),
+        summary_(columns_, shape_, (reactorCase.kind->network() != nullptr) ? shown() : std::vector<std::size_t>{}),
         classes_(reactorCase, shape_),
         distributions_(reactorCase),
         tables_(*reactorCase.ensemble, columns_) {
@@ -117,8 +116,8 @@ class EnsembleReactorDriver : public ReactorDriver {
       json.endObject();
     }
     std::vector<std::size_t> recorded;
-    const std::size_t fractions = case_.output.species.size(), places = columnsOfPlace(case_).size();
-    const std::size_t width = (columns_.size() - places) / numReactors(case_);
+    const std::size_t fractions = case_.output.species.size(), places = case_.kind->placeColumns().size();
+    const std::size_t width = (columns_.size() - places) / case_.kind->reactors();
     for (std::size_t c = 1; c < columns_.size(); ++c)
       if (c < places || (c - places) % width + fractions < width) recorded.push_back(c);
     summary_.record(json, recorded);
@@ -145,9 +144,9 @@ class EnsembleReactorDriver : public ReactorDriver {
           removals);
     if (const double starved = count("samples_never_full"); starved > 0) {
       double largest = 0;
-      for (std::size_t r = 0; r < numReactors(case_); ++r)
+      for (std::size_t r = 0; r < case_.kind->reactors(); ++r)
         largest =
-            std::max(largest, summary_.largest(reactorPrefix(case_, r) + case_.ensemble->material + "_number_density"));
+            std::max(largest, summary_.largest(case_.kind->prefix(r) + case_.ensemble->material + "_number_density"));
       fmt::print(
           "note: {:g} samples were never three quarters full, so that they were not doubled as particles became few: "
           "noise grows with time; choose 'particles.expected_number' near the largest number density, {:.2g} 1/m^3 "
@@ -183,7 +182,7 @@ class EnsembleReactorDriver : public ReactorDriver {
       if (progress.due())
         progress.say(fmt::format("repeat {} of {}, {} {:.4g} {}", repeat + 1, case_.ensemble->repeats, columns_[0].name,
                                  x, columns_[0].unit),
-                     before + x / endOf(case_));
+                     before + x / case_.kind->end());
       return true;
     });
   }

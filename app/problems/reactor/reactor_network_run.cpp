@@ -27,25 +27,27 @@ std::vector<Quantity> stirredColumns(const ReactorCase& reactorCase) {
 
 class StirredTransientDriver : public ReactorOfOneRank {
  public:
-  explicit StirredTransientDriver(const ReactorCase& reactorCase)
+  StirredTransientDriver(const ReactorCase& reactorCase, const StirredKind& stirred)
       : case_(reactorCase),
+        stirred_(stirred),
         particles_(reactorCase, ReactorParticleOutput::Kept::nothing),
         history_(stirredColumns(reactorCase), particles_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    NetworkSystem system(*case_.mechanism, case_.network, case_.particles.get());
+    NetworkSystem system(*case_.mechanism, stirred_.vessels, case_.particles.get());
     StiffIntegrator integrator(system, case_.integrator);
-    integrator.start(0.0, startUnknowns(*case_.mechanism, case_.network, case_.start, system.numCarried()), case_.end);
+    integrator.start(0.0, startUnknowns(*case_.mechanism, stirred_.vessels, stirred_.start, system.numCarried()),
+                     stirred_.duration);
     history_.open(folder.history());
     const std::size_t n = case_.mechanism->numSpecies();
     history_.follow(
-        integrator, case_.output.interval, case_.end, {},
+        integrator, case_.output.interval, stirred_.duration, {},
         [&](double time, std::span<const double> y) {
           std::vector<double> row{time, y[n], system.density(y.data()), system.residenceTime(y.data(), 0),
                                   system.heatRelease(y.data(), 0)};
           appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
-          particles_.append(case_.network.pressure, system.density(y.data()), y, row);
+          particles_.append(stirred_.vessels.pressure, system.density(y.data()), y, row);
           return row;
         },
         [] {});
@@ -65,7 +67,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
     particles_.record(json);
   }
   void print() const override {
-    fmt::print("T = {:.4f} K after {:g} s\n", temperature_, case_.end);
+    fmt::print("T = {:.4f} K after {:g} s\n", temperature_, stirred_.duration);
     particles_.print();
     fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
   }
@@ -74,6 +76,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
 
  private:
   const ReactorCase& case_;
+  const StirredKind& stirred_;
   ReactorParticleOutput particles_;
   ReactorHistory history_;
   long steps_ = 0;
@@ -83,8 +86,8 @@ class StirredTransientDriver : public ReactorOfOneRank {
 
 class SteadyNetworkDriver : public ReactorOfOneRank {
  public:
-  explicit SteadyNetworkDriver(const ReactorCase& reactorCase)
-      : case_(reactorCase), particles_(reactorCase, ReactorParticleOutput::Kept::nothing) {}
+  SteadyNetworkDriver(const ReactorCase& reactorCase, const StirredKind& stirred)
+      : case_(reactorCase), stirred_(stirred), particles_(reactorCase, ReactorParticleOutput::Kept::nothing) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
@@ -94,7 +97,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
     seconds_ = MPI_Wtime() - begin;
     std::string text = "name," + csvHeader(columns());
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
-      std::vector<std::string> fields{case_.network.reactors[r].name};
+      std::vector<std::string> fields{stirred_.vessels.reactors[r].name};
       for (const double value : rows_[r]) fields.push_back(fmt::format("{}", value));
       text += csvLine(fields);
     }
@@ -107,7 +110,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
     results.table("/reactors", columns(), rows);
     particles_.write(results);
     std::vector<std::string> names;
-    for (const StirredReactor& reactor : case_.network.reactors) names.push_back(reactor.name);
+    for (const StirredReactor& reactor : stirred_.vessels.reactors) names.push_back(reactor.name);
     std::string line = csvLine(names);
     line.pop_back();
     results.attribute("/reactors", "names", line);
@@ -120,7 +123,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
   void record(JsonWriter& json) const override {
     json.key("reactors").beginObject();
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
-      json.key(case_.network.reactors[r].name).beginObject();
+      json.key(stirred_.vessels.reactors[r].name).beginObject();
       json.field("temperature_K", reactors_[r].state.temperature);
       json.field("residence_time_s", reactors_[r].residenceTime).field("residual", reactors_[r].residual);
       recordOut(json, reactors_[r]);
@@ -139,22 +142,23 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
                "flow, kg/s", "heat, W", "residual");
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
       const ReactorSteadyState& s = reactors_[r];
-      fmt::print("{:<16} {:>10.4f} {:>14.6e} {:>12.4e} {:>12.4e} {:>12.4e} {:>10.1e}\n", case_.network.reactors[r].name,
-                 s.state.temperature, s.residenceTime, s.volume, s.massFlow, s.heatRelease * s.volume, s.residual);
+      fmt::print("{:<16} {:>10.4f} {:>14.6e} {:>12.4e} {:>12.4e} {:>12.4e} {:>10.1e}\n",
+                 stirred_.vessels.reactors[r].name, s.state.temperature, s.residenceTime, s.volume, s.massFlow,
+                 s.heatRelease * s.volume, s.residual);
     }
     for (std::size_t r = 0; r < properties_.size(); ++r)
       fmt::print(
           "{:<16} {} volume fraction {:.4g}, mean diameter {:.4g} nm; elements balance to {:.1e}, energy to {:.1e}\n",
-          case_.network.reactors[r].name, case_.soot->material(), properties_[r].volumeFraction,
+          stirred_.vessels.reactors[r].name, case_.soot->material(), properties_[r].volumeFraction,
           1e9 * properties_[r].meanDiameter, balances_[r].elements, balances_[r].energy);
     for (std::size_t r = 0; r < reactors_.size(); ++r)
-      fmt::print("{}", outLine(case_.network.reactors[r].name, reactors_[r]));
+      fmt::print("{}", outLine(stirred_.vessels.reactors[r].name, reactors_[r]));
     fmt::print("{} steps of the integrator in {}\n", steps(), formatDuration(seconds_));
   }
 
   long steps() const override {
     long sum = 0;
-    for (const auto& group : solutionOrder(case_.network)) sum += reactors_[group.front()].steps;
+    for (const auto& group : solutionOrder(stirred_.vessels)) sum += reactors_[group.front()].steps;
     return sum;
   }
   double simulatedTime() const override { return 0.0; }
@@ -177,7 +181,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
 
   void solve() {
     try {
-      reactors_ = solveNetwork(*case_.mechanism, case_.network, case_.start, case_.particles.get());
+      reactors_ = solveNetwork(*case_.mechanism, stirred_.vessels, stirred_.start, case_.particles.get());
     } catch (const NumericsError& error) {
       if (!case_.particles) throw;
       throw NumericsError(fmt::format(
@@ -188,7 +192,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
   }
 
   void makeRows() {
-    if (case_.particles) balances_ = steadyBalances(*case_.mechanism, *case_.particles, case_.network, reactors_);
+    if (case_.particles) balances_ = steadyBalances(*case_.mechanism, *case_.particles, stirred_.vessels, reactors_);
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
       const ReactorSteadyState& s = reactors_[r];
       rows_.push_back(row(s));
@@ -207,6 +211,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
   }
 
   const ReactorCase& case_;
+  const StirredKind& stirred_;
   ReactorParticleOutput particles_;
   std::vector<ReactorSteadyState> reactors_;
   std::vector<std::vector<double>> rows_;
@@ -217,12 +222,12 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
 
 }  // namespace
 
-std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase) {
-  return std::make_unique<StirredTransientDriver>(reactorCase);
+std::unique_ptr<ReactorDriver> stirredTransientDriver(const ReactorCase& reactorCase, const StirredKind& stirred) {
+  return std::make_unique<StirredTransientDriver>(reactorCase, stirred);
 }
 
-std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase) {
-  return std::make_unique<SteadyNetworkDriver>(reactorCase);
+std::unique_ptr<ReactorDriver> steadyNetworkDriver(const ReactorCase& reactorCase, const StirredKind& stirred) {
+  return std::make_unique<SteadyNetworkDriver>(reactorCase, stirred);
 }
 
 }  // namespace lampblack::app

@@ -29,21 +29,21 @@ void appendSpecies(const Mechanism& mechanism, const ReactorOutput& output, std:
   for (const std::size_t k : output.species) row.push_back(output.massFractions ? Y[k] : Y[k] / (W[k] * moles));
 }
 
-std::vector<Quantity> closedColumns(const ReactorCase& reactorCase) {
+std::vector<Quantity> closedColumns(const ReactorCase& reactorCase, const ClosedKind& closed) {
   std::vector<Quantity> columns{{"time", "s", "time"},
                                 {"temperature", "K", "gas temperature"},
                                 {"pressure", "Pa", "pressure"},
                                 {"density", "kg/m^3", "density"},
                                 {"temperature_rate", "K/s", "dT/dt"},
                                 {"heat_release", "W/m^3", "heat set free by the reactions"}};
-  if (reactorCase.volume) columns.push_back({"volume_ratio", "1", "volume over that at time zero"});
-  if (reactorCase.startAngle) columns.push_back({"crank_angle", "deg", "angle of the crank after top dead centre"});
+  if (closed.volume) columns.push_back({"volume_ratio", "1", "volume over that at time zero"});
+  if (closed.startAngle) columns.push_back({"crank_angle", "deg", "angle of the crank after top dead centre"});
   for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
   return columns;
 }
 
-std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& reactor, double time,
-                              std::span<const double> y) {
+std::vector<double> closedRow(const ReactorCase& reactorCase, const ClosedKind& closed, ClosedReactor& reactor,
+                              double time, std::span<const double> y) {
   std::vector<double> f(y.size());
   reactor.rates(time, y.data(), f.data());
   const std::size_t n = reactorCase.mechanism->numSpecies();
@@ -53,19 +53,17 @@ std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& rea
                           reactor.density(time, y.data()),
                           f[n],
                           reactor.heatRelease(time, y.data())};
-  if (reactorCase.volume) row.push_back(reactorCase.volume->ratio(time));
-  if (reactorCase.startAngle)
-    row.push_back((*reactorCase.startAngle + *reactorCase.angularSpeed * time) * 180 / std::numbers::pi);
+  if (closed.volume) row.push_back(closed.volume->ratio(time));
+  if (closed.startAngle) row.push_back((*closed.startAngle + *closed.angularSpeed * time) * 180 / std::numbers::pi);
   appendSpecies(*reactorCase.mechanism, reactorCase.output, y.first(n), row);
   return row;
 }
 
-std::vector<Sensitivities> namedSensitivities(const ReactorCase& reactorCase,
-                                              const IgnitionSensitivities& sensitivities) {
+std::vector<Sensitivities> namedSensitivities(const ClosedKind& closed, const IgnitionSensitivities& sensitivities) {
   std::vector<Sensitivities> named;
-  for (std::size_t i = 0; i < reactorCase.ignition.size(); ++i)
-    named.push_back({reactorCase.ignition[i].name,
-                     i < sensitivities.values.size() ? sensitivities.values[i] : std::vector<double>()});
+  for (std::size_t i = 0; i < closed.ignition.size(); ++i)
+    named.push_back(
+        {closed.ignition[i].name, i < sensitivities.values.size() ? sensitivities.values[i] : std::vector<double>()});
   return named;
 }
 
@@ -95,11 +93,11 @@ const char* unitOf(const IgnitionCriterion& criterion) {
 
 }  // namespace
 
-void writeIgnition(ResultsWriter& results, const ReactorCase& reactorCase,
+void writeIgnition(ResultsWriter& results, const Mechanism& mechanism, const ClosedKind& closed,
                    const std::vector<std::optional<IgnitionEvent>>& events) {
-  for (std::size_t i = 0; i < reactorCase.ignition.size(); ++i) {
-    const IgnitionCriterion& criterion = reactorCase.ignition[i];
-    const std::string what = describe(criterion, *reactorCase.mechanism);
+  for (std::size_t i = 0; i < closed.ignition.size(); ++i) {
+    const IgnitionCriterion& criterion = closed.ignition[i];
+    const std::string what = describe(criterion, mechanism);
     const double missing = std::numeric_limits<double>::quiet_NaN();
     const bool met = i < events.size() && events[i];
     const double time = met ? events[i]->time : missing, value = met ? events[i]->value : missing;

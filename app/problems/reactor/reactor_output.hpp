@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/deck/sensitivity_deck.hpp"
-#include "app/problems/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_kind.hpp"
 #include "chemistry/reactor/ignition_sensitivity.hpp"
 #include "core/modules.hpp"
 #include "io/json.hpp"
@@ -22,16 +22,15 @@ void appendSpecies(const Mechanism& mechanism, const ReactorOutput& output, std:
                    std::vector<double>& row);
 
 // Columns of a closed reactor's history, and a row at a time (s) of it.
-std::vector<Quantity> closedColumns(const ReactorCase& reactorCase);
-std::vector<double> closedRow(const ReactorCase& reactorCase, ClosedReactor& reactor, double time,
-                              std::span<const double> y);
+std::vector<Quantity> closedColumns(const ReactorCase& reactorCase, const ClosedKind& closed);
+std::vector<double> closedRow(const ReactorCase& reactorCase, const ClosedKind& closed, ClosedReactor& reactor,
+                              double time, std::span<const double> y);
 
 // Of the ignition delays, by the criteria of the deck.
-std::vector<Sensitivities> namedSensitivities(const ReactorCase& reactorCase,
-                                              const IgnitionSensitivities& sensitivities);
+std::vector<Sensitivities> namedSensitivities(const ClosedKind& closed, const IgnitionSensitivities& sensitivities);
 
 // The group /ignition. Collective; rank 0 has the values.
-void writeIgnition(ResultsWriter& results, const ReactorCase& reactorCase,
+void writeIgnition(ResultsWriter& results, const Mechanism& mechanism, const ClosedKind& closed,
                    const std::vector<std::optional<IgnitionEvent>>& events);
 
 // A line for the console on a stirred reactor that is out; empty for others.

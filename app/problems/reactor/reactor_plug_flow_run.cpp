@@ -26,30 +26,31 @@ std::vector<Quantity> plugFlowColumns(const ReactorCase& reactorCase) {
 
 class PlugFlowDriver : public ReactorOfOneRank {
  public:
-  explicit PlugFlowDriver(const ReactorCase& reactorCase)
+  PlugFlowDriver(const ReactorCase& reactorCase, const PlugFlowKind& duct)
       : case_(reactorCase),
+        duct_(duct),
         particles_(reactorCase,
                    reactorCase.profile ? ReactorParticleOutput::Kept::elements : ReactorParticleOutput::Kept::enthalpy),
         history_(plugFlowColumns(reactorCase), particles_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
-    if (case_.upstream) upstream_ = steadyUpstream(case_, case_.particles.get());
-    const GasState& inlet = upstream_ ? upstream_->state : case_.inlet;
-    PlugFlow flow(*case_.mechanism, inlet, case_.massFlux, case_.length, case_.profile, case_.particles.get());
+    if (duct_.upstream) upstream_ = steadyUpstream(*case_.mechanism, duct_, case_.particles.get());
+    const GasState& inlet = upstream_ ? upstream_->state : duct_.inlet;
+    PlugFlow flow(*case_.mechanism, inlet, duct_.massFlux, duct_.length, case_.profile, case_.particles.get());
     StiffIntegrator integrator(flow, case_.integrator);
-    integrator.start(0.0, flow.initialState(), case_.length);
+    integrator.start(0.0, flow.initialState(), duct_.length);
     history_.open(folder.history());
     const std::size_t n = case_.mechanism->numSpecies();
     std::function<double(double)> nextStop;
-    if (case_.profile) nextStop = [&](double z) { return case_.profile->nextKink(z).value_or(case_.length); };
+    if (case_.profile) nextStop = [&](double z) { return case_.profile->nextKink(z).value_or(duct_.length); };
     history_.follow(
-        integrator, case_.output.interval, case_.length, nextStop,
+        integrator, case_.output.interval, duct_.length, nextStop,
         [&](double z, std::span<const double> y) {
           std::vector<double> row{z, flow.residenceTime(y.data()), flow.velocity(y.data()), y[n],
                                   flow.density(y.data())};
           appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
-          particles_.append(case_.inlet.pressure, flow.density(y.data()), y, row);
+          particles_.append(duct_.inlet.pressure, flow.density(y.data()), y, row);
           return row;
         },
         [] {});
@@ -80,7 +81,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
 
   void print() const override {
     fmt::print("T = {:.4f} K, u = {:.6g} m/s at z = {:g} m, {:.6e} s after the inlet\n", temperature_, velocity_,
-               case_.length, time_);
+               duct_.length, time_);
     particles_.print();
     if (upstream_) fmt::print("{}", outLine("upstream", *upstream_));
     fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
@@ -91,6 +92,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
 
  private:
   const ReactorCase& case_;
+  const PlugFlowKind& duct_;
   ReactorParticleOutput particles_;
   ReactorHistory history_;
   std::optional<ReactorSteadyState> upstream_;
@@ -100,8 +102,8 @@ class PlugFlowDriver : public ReactorOfOneRank {
 
 }  // namespace
 
-std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase) {
-  return std::make_unique<PlugFlowDriver>(reactorCase);
+std::unique_ptr<ReactorDriver> plugFlowDriver(const ReactorCase& reactorCase, const PlugFlowKind& duct) {
+  return std::make_unique<PlugFlowDriver>(reactorCase, duct);
 }
 
 }  // namespace lampblack::app

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <memory>
 
-#include "app/problems/reactor/reactor_case.hpp"
 #include "app/problems/reactor/reactor_driver.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
@@ -16,7 +14,7 @@ namespace {
 
 std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
   if (reactorCase.ensemble) return ensembleReactorDriver(reactorCase);
-  return std::ranges::find(reactorKinds(), reactorCase.type, &ReactorKind::type)->driver(reactorCase);
+  return reactorCase.kind->driver(reactorCase);
 }
 
 class PreparedReactor : public PreparedRun {
@@ -30,7 +28,7 @@ class PreparedReactor : public PreparedRun {
 
   [[nodiscard]] std::string summary() const override {
     std::string text = deck_.choice("reactor.type");
-    if (case_.type == ReactorType::Network) text += fmt::format(" of {}", case_.network.reactors.size());
+    if (!case_.kind->prefix(0).empty()) text += fmt::format(" of {}", case_.kind->reactors());
     return fmt::format("{}, {} species, {} reactions", text, case_.mechanism->numSpecies(),
                        case_.mechanism->numReactions());
   }

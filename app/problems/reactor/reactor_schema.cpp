@@ -5,7 +5,6 @@
 #include "app/deck/temperature_input.hpp"
 #include "app/deck/trees_deck.hpp"
 #include "app/problems/reactor/reactor_case_parts.hpp"
-#include "app/problems/reactor/reactor_driver.hpp"
 #include "io/deck_keys.hpp"
 
 namespace lampblack::app {
@@ -19,7 +18,7 @@ const std::vector<std::string> startsFromGas{"constant_pressure", "constant_volu
 void addReactor(DeckSchema& schema) {
   SectionKeys keys("");
   std::vector<std::string> names;
-  for (const ReactorKind& kind : reactorKinds()) names.push_back(kind.name);
+  for (const auto& kind : reactorcase::reactorKinds()) names.push_back(kind.name);
   keys.choice("reactor.type", names, rules(),
               "constant_pressure, constant_volume, given_volume (in time, by the section volume): closed and well "
               "mixed, from the section initial; stirred: perfectly stirred with a stream through it; plug_flow: a "

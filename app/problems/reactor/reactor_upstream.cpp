@@ -6,26 +6,26 @@
 
 namespace lampblack::app {
 
-ReactorSteadyState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried) {
-  return solveNetwork(*reactorCase.mechanism, *reactorCase.upstream, {}, carried)[0];
+ReactorSteadyState steadyUpstream(const Mechanism& mechanism, const PlugFlowKind& duct, CarriedPhase* carried) {
+  return solveNetwork(mechanism, *duct.upstream, {}, carried)[0];
 }
 
-GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,
-                                const SplitReactor::Options& options) {
+GasState upstreamWithPopulation(const ReactorCase& reactorCase, const PlugFlowKind& duct, SplitParticles& particles) {
+  const auto stirred = std::make_shared<StirredKind>();
+  stirred->vessels = *duct.upstream;
+  stirred->start.given = steadyUpstream(*reactorCase.mechanism, duct, nullptr).state;
   ReactorCase before = reactorCase;
-  before.type = ReactorType::Stirred;
-  before.network = *reactorCase.upstream;
-  before.start.given = steadyUpstream(reactorCase, nullptr).state;
+  before.kind = stirred;
   before.profile.reset();
   EnsembleGas gas(before);
-  SplitReactor reactor(*before.mechanism, gas.gas(), particles, options);
+  SplitReactor reactor(*before.mechanism, gas.gas(), particles, splitOptions(before));
   reactor.start(0, gas.start());
-  reactor.advance(reactorCase.upstreamTime);
+  reactor.advance(duct.upstreamTime);
   const std::span<const double> y = reactor.state();
   const std::size_t n = before.mechanism->numSpecies();
   const auto amounts = y.subspan(n + 1, gas.particles().mark());
   return {y[n],
-          before.network.pressure,
+          stirred->vessels.pressure,
           {y.begin(), y.begin() + static_cast<std::ptrdiff_t>(n)},
           {amounts.begin(), amounts.end()}};
 }

@@ -2,7 +2,7 @@
 // and soot grows in the other: what leaves it is the inlet of the plug flow, with the particles that the gas carries.
 #pragma once
 
-#include "app/problems/reactor/reactor_case.hpp"
+#include "app/problems/reactor/reactor_kind.hpp"
 #include "core/modules.hpp"
 #include "coupling/split_reactor.hpp"
 
@@ -10,10 +10,11 @@ namespace lampblack::app {
 
 // The steady state of the stirred reactor in front of a plug flow. `carried`: the phase that the gas carries; null:
 // none. NumericsError.
-[[nodiscard]] ReactorSteadyState steadyUpstream(const ReactorCase& reactorCase, CarriedPhase* carried);
-// The state of the stirred reactor with a population, at ReactorCase::upstreamTime after the steady state of the gas
+[[nodiscard]] ReactorSteadyState steadyUpstream(const Mechanism& mechanism, const PlugFlowKind& duct,
+                                                CarriedPhase* carried);
+// The state of the stirred reactor with a population, at PlugFlowKind::upstreamTime after the steady state of the gas
 // alone. NumericsError.
-[[nodiscard]] GasState upstreamWithPopulation(const ReactorCase& reactorCase, SplitParticles& particles,
-                                              const SplitReactor::Options& options);
+[[nodiscard]] GasState upstreamWithPopulation(const ReactorCase& reactorCase, const PlugFlowKind& duct,
+                                              SplitParticles& particles);
 
 }  // namespace lampblack::app

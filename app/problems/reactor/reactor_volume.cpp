@@ -48,7 +48,7 @@ VolumeLaw formulaLaw(const Deck& deck, double end) {
   });
 }
 
-VolumeLaw pistonLaw(const Deck& deck, ReactorCase& reactorCase) {
+VolumeLaw pistonLaw(const Deck& deck, ClosedKind& closed) {
   SliderCrank crank{neededQuantity(deck, "volume", "bore", "a piston"),
                     neededQuantity(deck, "volume", "stroke", "a piston"),
                     neededQuantity(deck, "volume", "rod", "a piston"), 0};
@@ -58,9 +58,9 @@ VolumeLaw pistonLaw(const Deck& deck, ReactorCase& reactorCase) {
   if (!(crank.rod > 0.5 * crank.stroke))
     throw deck.error("volume.rod",
                      fmt::format("the rod has to be longer than half the stroke, {:g} m", 0.5 * crank.stroke));
-  reactorCase.startAngle = deck.quantity("volume.start_angle");
-  reactorCase.angularSpeed = neededQuantity(deck, "volume", "speed", "a piston");
-  return VolumeLaw::piston(crank, *reactorCase.startAngle, *reactorCase.angularSpeed);
+  closed.startAngle = deck.quantity("volume.start_angle");
+  closed.angularSpeed = neededQuantity(deck, "volume", "speed", "a piston");
+  return VolumeLaw::piston(crank, *closed.startAngle, *closed.angularSpeed);
 }
 
 }  // namespace
@@ -101,21 +101,21 @@ void addVolumeKeys(DeckSchema& schema) {
   schema.add(keys.schema());
 }
 
-void readVolume(const Deck& deck, ReactorCase& reactorCase) {
+void readVolume(const Deck& deck, const ReactorCase& reactorCase, ClosedKind& closed) {
   if (!deck.has("volume")) throw deck.error("reactor.type", "'given_volume' needs the section 'volume'");
   const std::string law = deck.choice(lawKey);
   if (law == "table") {
-    reactorCase.volume = tableLaw(deck);
+    closed.volume = tableLaw(deck);
   } else if (law == "formula") {
     if (!deck.has("volume.formula")) throw deck.error("volume", "the law 'formula' needs the key 'formula'");
-    reactorCase.volume = formulaLaw(deck, reactorCase.end);
+    closed.volume = formulaLaw(deck, closed.duration);
   } else if (law == "slider_crank") {
-    reactorCase.volume = pistonLaw(deck, reactorCase);
+    closed.volume = pistonLaw(deck, closed);
   } else {
     const double rate = neededQuantity(deck, "volume", "pressure_rise", "a rise of pressure");
-    const GasState& gas = reactorCase.initial;
-    reactorCase.volume = deck.at("volume.pressure_rise", [&] {
-      return VolumeLaw::pressureRise(*reactorCase.mechanism, gas.temperature, gas.Y, rate, reactorCase.end);
+    const GasState& gas = closed.initial;
+    closed.volume = deck.at("volume.pressure_rise", [&] {
+      return VolumeLaw::pressureRise(*reactorCase.mechanism, gas.temperature, gas.Y, rate, closed.duration);
     });
   }
   if (deck.choice("ignition.from") == "start") return;
@@ -124,10 +124,10 @@ void readVolume(const Deck& deck, ReactorCase& reactorCase) {
       throw deck.error("ignition.from", "a rise of pressure has no end of compression; count delays from the start");
     return;
   }
-  const double compressed = reactorCase.volume->smallestAt(reactorCase.end);
+  const double compressed = closed.volume->smallestAt(closed.duration);
   // A volume that still falls at the end of the run, or never does, has no end of compression.
-  if (compressed < reactorCase.end)
-    reactorCase.ignitionFrom = compressed;
+  if (compressed < closed.duration)
+    closed.ignitionFrom = compressed;
   else if (deck.isGiven("ignition.from"))
     throw deck.error(
         "ignition.from",
