@@ -4,6 +4,9 @@
 
 #include <array>
 #include <cmath>
+#include <ranges>
+
+#include "io/table.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -14,61 +17,68 @@ std::string momentName(std::size_t k) {
   return fmt::format("M{}", k);
 }
 
-void addMoments(std::vector<Quantity>& columns, const std::string& prefix, bool units, const std::string& what) {
+// A column a moment; `units`: of the moments, else pure numbers.
+template <typename... Of, typename MomentsOf>
+void addMoments(TableOf<Of...>& table, const std::string& prefix, bool units, const std::string& what,
+                const MomentsOf& momentsOf) {
   for (std::size_t k = 0; k < 4; ++k)
-    columns.push_back({fmt::format("{}{}", prefix, momentName(k)), units ? momentUnits[k] : "1",
-                       fmt::format("{} sum of v^{} per volume of gas", what, k)});
+    table.add({fmt::format("{}{}", prefix, momentName(k)), units ? momentUnits[k] : "1",
+               fmt::format("{} sum of v^{} per volume of gas", what, k)},
+              [k, momentsOf](Of... of) { return momentsOf(of...)[k]; });
+}
+
+// Tables over the rows of a history.
+using RowTable = TableOf<std::size_t>;
+
+RowTable timeTable(const std::vector<double>& times) {
+  return {{{"time", "s", "time"}, [&times](std::size_t r) { return times[r]; }}};
+}
+
+void writeRows(ResultsWriter& results, const std::string& path, const RowTable& table, std::size_t rows) {
+  table.of(std::views::iota(std::size_t{0}, rows)).write(results, path);
 }
 
 void writeHistory(ResultsWriter& results, const std::string& path, const PopulationStatistics& statistics,
-                  const MethodStatistics* method) {
-  std::vector<Quantity> columns{{"time", "s", "time"}};
+                  const MethodStatistics& method) {
+  RowTable table = timeTable(statistics.rows);
   for (std::size_t k = 0; k < 4; ++k) {
-    columns.push_back({momentName(k), momentUnits[k], fmt::format("mean over the repeats of the sum of v^{}", k)});
-    columns.push_back({momentName(k) + "_error", momentUnits[k], "standard error of the mean"});
+    table.add({momentName(k), momentUnits[k], fmt::format("mean over the repeats of the sum of v^{}", k)},
+              [&method, k](std::size_t r) { return method.mean[r][k]; });
+    table.add({momentName(k) + "_error", momentUnits[k], "standard error of the mean"},
+              [&method, k](std::size_t r) { return method.error[r][k]; });
   }
-  columns.push_back({"geometric_standard_deviation", "1", "of the diameter by number, mean over the repeats"});
-  columns.push_back({"geometric_standard_deviation_error", "1", "standard error of the mean"});
-  columns.push_back({"particles", "1", "numerical particles, sections or moments; mean over the repeats"});
-  std::vector<double> rows;
-  for (std::size_t r = 0; method != nullptr && r < method->mean.size(); ++r) {
-    rows.push_back(statistics.rows[r]);
-    for (std::size_t k = 0; k < 4; ++k) rows.insert(rows.end(), {method->mean[r][k], method->error[r][k]});
-    rows.insert(rows.end(), {method->geometricDeviation[r], method->geometricDeviationError[r], method->particles[r]});
-  }
-  results.table(path, columns, rows);
+  table.add({"geometric_standard_deviation", "1", "of the diameter by number, mean over the repeats"},
+            [&method](std::size_t r) { return method.geometricDeviation[r]; });
+  table.add({"geometric_standard_deviation_error", "1", "standard error of the mean"},
+            [&method](std::size_t r) { return method.geometricDeviationError[r]; });
+  table.add({"particles", "1", "numerical particles, sections or moments; mean over the repeats"},
+            [&method](std::size_t r) { return method.particles[r]; });
+  writeRows(results, path, table, method.mean.size());
 }
 
 void writeMoments(ResultsWriter& results, const std::string& path, const std::string& prefix, bool units,
                   const std::string& what, const std::vector<double>& times, const std::vector<FourMoments>& values) {
-  std::vector<Quantity> columns{{"time", "s", "time"}};
-  addMoments(columns, prefix, units, what);
-  std::vector<double> rows;
-  for (std::size_t r = 0; r < values.size(); ++r) {
-    rows.push_back(times[r]);
-    rows.insert(rows.end(), values[r].begin(), values[r].end());
-  }
-  results.table(path, columns, rows);
+  RowTable table = timeTable(times);
+  addMoments(table, prefix, units, what, [&values](std::size_t r) { return values[r]; });
+  writeRows(results, path, table, values.size());
 }
 
-void writeRepeats(ResultsWriter& results, const std::string& path, const MethodStatistics* method) {
-  std::vector<Quantity> columns{{"repeat", "1", "number of the repeat"}};
-  addMoments(columns, "", true, "at the end:");
-  addMoments(columns, "sigma_", false, "root of the time mean of the squared relative deviation of the");
-  columns.push_back({"mass_error", "1", "largest relative deviation of M1 in time"});
-  columns.push_back({"particles", "1", "numerical particles at the end"});
-  columns.push_back({"seconds", "s", "processor time of the computation alone"});
-  for (const PopulationCounter& c : populationCounters) columns.push_back({c.name, "1", "events of this kind"});
-  std::vector<double> rows;
-  for (std::size_t r = 0; method != nullptr && r < method->repeats.size(); ++r) {
-    const RepeatResult& repeat = method->repeats[r];
-    rows.push_back(static_cast<double>(r));
-    rows.insert(rows.end(), repeat.moments.begin(), repeat.moments.end());
-    rows.insert(rows.end(), repeat.sigma.begin(), repeat.sigma.end());
-    rows.insert(rows.end(), {repeat.massError, repeat.particles, repeat.seconds});
-    for (const PopulationCounter& c : populationCounters) rows.push_back(static_cast<double>(repeat.counters.*c.value));
-  }
-  results.table(path, columns, rows);
+void writeRepeats(ResultsWriter& results, const std::string& path, const MethodStatistics& method) {
+  const auto of = [&method](auto member) {
+    return [&method, member](std::size_t r) { return static_cast<double>(method.repeats[r].*member); };
+  };
+  RowTable table{{{"repeat", "1", "number of the repeat"}, [](std::size_t r) { return static_cast<double>(r); }}};
+  addMoments(table, "", true, "at the end:", [&method](std::size_t r) { return method.repeats[r].moments; });
+  addMoments(table, "sigma_", false, "root of the time mean of the squared relative deviation of the",
+             [&method](std::size_t r) { return method.repeats[r].sigma; });
+  table.add({"mass_error", "1", "largest relative deviation of M1 in time"}, of(&RepeatResult::massError));
+  table.add({"particles", "1", "numerical particles at the end"}, of(&RepeatResult::particles));
+  table.add({"seconds", "s", "processor time of the computation alone"}, of(&RepeatResult::seconds));
+  for (const PopulationCounter& c : populationCounters)
+    table.add({c.name, "1", "events of this kind"}, [&method, value = c.value](std::size_t r) {
+      return static_cast<double>(method.repeats[r].counters.*value);
+    });
+  writeRows(results, path, table, method.repeats.size());
 }
 
 // The dataset and, where it has one, its error; times x bins.
@@ -108,11 +118,11 @@ void writePopulation(ResultsWriter& results, const PopulationCase& populationCas
     const std::string group = "/methods/" + populationCase.methods[m].name;
     static const MethodStatistics nothing{};
     const MethodStatistics& made = method != nullptr ? *method : nothing;
-    writeHistory(results, group + "/history", statistics, method);
+    writeHistory(results, group + "/history", statistics, made);
     writeMoments(results, group + "/sigma", "sigma_", false,
                  "mean over the repeats of the root of the time mean of the squared relative deviation of the",
                  statistics.rows, made.sigma);
-    writeRepeats(results, group + "/repeats", method);
+    writeRepeats(results, group + "/repeats", made);
     writeDistribution(results, group + "/distribution", populationCase.bins, made.number, &made.numberError);
     results.attribute(group, "type", populationCase.methods[m].type);
   }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -22,13 +23,41 @@ namespace {
 // A change of temperature (K) below which nobody would speak of ignition.
 constexpr double kIgnited = 50;
 
+StateTable<ClosedReactor> closedTable(const ReactorCase& reactorCase, const ClosedKind& closed) {
+  using State = std::span<const double>;
+  StateTable<ClosedReactor> table{
+      {{"time", "s", "time"}, [](ClosedReactor&, double t, State) { return t; }},
+      temperatureColumn<ClosedReactor>(reactorCase),
+      {{"pressure", "Pa", "pressure"}, [](ClosedReactor& r, double t, State y) { return r.pressure(t, y.data()); }},
+      {{"density", "kg/m^3", "density"}, [](ClosedReactor& r, double t, State y) { return r.density(t, y.data()); }},
+      {{"temperature_rate", "K/s", "dT/dt"},
+       [n = reactorCase.mechanism->numSpecies()](ClosedReactor& r, double t, State y) {
+         std::vector<double> f(y.size());
+         r.rates(t, y.data(), f.data());
+         return f[n];
+       }},
+      {{"heat_release", "W/m^3", "heat set free by the reactions"},
+       [](ClosedReactor& r, double t, State y) { return r.heatRelease(t, y.data()); }}};
+  if (closed.volume)
+    table.add({"volume_ratio", "1", "volume over that at time zero"},
+              [&closed](ClosedReactor&, double t, State) { return closed.volume->ratio(t); });
+  if (closed.startAngle)
+    table.add({"crank_angle", "deg", "angle of the crank after top dead centre"},
+              [&closed](ClosedReactor&, double t, State) {
+                return (*closed.startAngle + *closed.angularSpeed * t) * 180 / std::numbers::pi;
+              });
+  addSpecies(table, reactorCase);
+  return table;
+}
+
 class ClosedReactorDriver : public ReactorOfOneRank {
  public:
   ClosedReactorDriver(const ReactorCase& reactorCase, const ClosedKind& closed)
       : case_(reactorCase),
         closed_(closed),
         particles_(reactorCase, kept(reactorCase, closed)),
-        history_(closedColumns(reactorCase, closed), particles_.columns()),
+        table_(closedTable(reactorCase, closed)),
+        history_(table_.columns(), particles_.columns()),
         events_(closed.ignition.size()) {}
 
   void compute(const RunFolder& folder) override {
@@ -45,7 +74,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     history_.follow(
         integrator, case_.output.interval, closed_.duration, [&](double time) { return nextStop(time); },
         [&](double time, std::span<const double> y) {
-          std::vector<double> row = closedRow(case_, closed_, reactor, time, y);
+          std::vector<double> row = table_.row(reactor, time, y);
           particles_.append(reactor.pressure(time, y.data()), reactor.density(time, y.data()), y, row);
           return row;
         },
@@ -193,6 +222,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
   const ClosedKind& closed_;
   std::optional<Compressed> compressed_;  // where delays count from the end of a compression
   ReactorParticleOutput particles_;
+  StateTable<ClosedReactor> table_;
   ReactorHistory history_;
   std::vector<std::optional<IgnitionEvent>> events_;
   IgnitionSensitivities sensitivities_;

@@ -15,14 +15,18 @@
 namespace lampblack::app {
 namespace {
 
-std::vector<Quantity> stirredColumns(const ReactorCase& reactorCase) {
-  std::vector<Quantity> columns{{"time", "s", "time"},
-                                {"temperature", "K", "gas temperature"},
-                                {"density", "kg/m^3", "density"},
-                                {"residence_time", "s", "mass inside over mass flow in"},
-                                {"heat_release", "W/m^3", "heat set free by the reactions"}};
-  for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
-  return columns;
+StateTable<NetworkSystem> stirredTable(const ReactorCase& reactorCase) {
+  using State = std::span<const double>;
+  StateTable<NetworkSystem> table{
+      {{"time", "s", "time"}, [](NetworkSystem&, double t, State) { return t; }},
+      temperatureColumn<NetworkSystem>(reactorCase),
+      {{"density", "kg/m^3", "density"}, [](NetworkSystem& s, double, State y) { return s.density(y.data()); }},
+      {{"residence_time", "s", "mass inside over mass flow in"},
+       [](NetworkSystem& s, double, State y) { return s.residenceTime(y.data(), 0); }},
+      {{"heat_release", "W/m^3", "heat set free by the reactions"},
+       [](NetworkSystem& s, double, State y) { return s.heatRelease(y.data(), 0); }}};
+  addSpecies(table, reactorCase);
+  return table;
 }
 
 class StirredTransientDriver : public ReactorOfOneRank {
@@ -31,7 +35,8 @@ class StirredTransientDriver : public ReactorOfOneRank {
       : case_(reactorCase),
         stirred_(stirred),
         particles_(reactorCase, ReactorParticleOutput::Kept::nothing),
-        history_(stirredColumns(reactorCase), particles_.columns()) {}
+        table_(stirredTable(reactorCase)),
+        history_(table_.columns(), particles_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
@@ -44,9 +49,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
     history_.follow(
         integrator, case_.output.interval, stirred_.duration, {},
         [&](double time, std::span<const double> y) {
-          std::vector<double> row{time, y[n], system.density(y.data()), system.residenceTime(y.data(), 0),
-                                  system.heatRelease(y.data(), 0)};
-          appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
+          std::vector<double> row = table_.row(system, time, y);
           particles_.append(stirred_.vessels.pressure, system.density(y.data()), y, row);
           return row;
         },
@@ -78,6 +81,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
   const ReactorCase& case_;
   const StirredKind& stirred_;
   ReactorParticleOutput particles_;
+  StateTable<NetworkSystem> table_;
   ReactorHistory history_;
   long steps_ = 0;
   double reached_ = 0;  // s
@@ -164,14 +168,23 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
   double simulatedTime() const override { return 0.0; }
 
  private:
+  static TableOf<const ReactorSteadyState&> steadyTable(const ReactorCase& reactorCase) {
+    using Steady = ReactorSteadyState;
+    TableOf<const Steady&> table{
+        {{"temperature", "K", "gas temperature"}, [](const Steady& s) { return s.state.temperature; }},
+        {{"density", "kg/m^3", "density"}, &Steady::density},
+        {{"volume", "m^3", "volume"}, &Steady::volume},
+        {{"residence_time", "s", "mass inside over mass flow"}, &Steady::residenceTime},
+        {{"mass_flow", "kg/s", "mass flow through the reactor"}, &Steady::massFlow},
+        {{"heat_release", "W/m^3", "heat set free by the reactions"}, &Steady::heatRelease}};
+    table.add(speciesColumns(*reactorCase.mechanism, reactorCase.output),
+              [&reactorCase](const Steady& s, std::vector<double>& row) {
+                appendSpecies(*reactorCase.mechanism, reactorCase.output, s.state.Y, row);
+              });
+    return table;
+  }
   std::vector<Quantity> columns() const {
-    std::vector<Quantity> columns{{"temperature", "K", "gas temperature"},
-                                  {"density", "kg/m^3", "density"},
-                                  {"volume", "m^3", "volume"},
-                                  {"residence_time", "s", "mass inside over mass flow"},
-                                  {"mass_flow", "kg/s", "mass flow through the reactor"},
-                                  {"heat_release", "W/m^3", "heat set free by the reactions"}};
-    for (auto& column : speciesColumns(*case_.mechanism, case_.output)) columns.push_back(std::move(column));
+    std::vector<Quantity> columns = table_.columns();
     for (auto& column : particles_.columns()) columns.push_back(std::move(column));
     if (!case_.particles) return columns;
     columns.push_back({"element_imbalance", "1", "largest difference of an element between what comes in and leaves"});
@@ -195,7 +208,7 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
     if (case_.particles) balances_ = steadyBalances(*case_.mechanism, *case_.particles, stirred_.vessels, reactors_);
     for (std::size_t r = 0; r < reactors_.size(); ++r) {
       const ReactorSteadyState& s = reactors_[r];
-      rows_.push_back(row(s));
+      rows_.push_back(table_.row(s));
       if (!case_.particles) continue;
       const std::vector<double> y = unknownsOf(s.state, case_.particles->size());
       particles_.append(s.state.pressure, s.density, y, rows_.back());
@@ -204,15 +217,10 @@ class SteadyNetworkDriver : public ReactorOfOneRank {
     }
   }
 
-  std::vector<double> row(const ReactorSteadyState& s) const {
-    std::vector<double> row{s.state.temperature, s.density, s.volume, s.residenceTime, s.massFlow, s.heatRelease};
-    appendSpecies(*case_.mechanism, case_.output, s.state.Y, row);
-    return row;
-  }
-
   const ReactorCase& case_;
   const StirredKind& stirred_;
   ReactorParticleOutput particles_;
+  TableOf<const ReactorSteadyState&> table_{steadyTable(case_)};
   std::vector<ReactorSteadyState> reactors_;
   std::vector<std::vector<double>> rows_;
   std::vector<ParticleProperties> properties_;  // empty without particles

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <limits>
-#include <numbers>
 
 #include "io/csv.hpp"
 
@@ -27,36 +26,6 @@ void appendSpecies(const Mechanism& mechanism, const ReactorOutput& output, std:
   double moles = 0;
   for (std::size_t k = 0; k < Y.size(); ++k) moles += Y[k] / W[k];
   for (const std::size_t k : output.species) row.push_back(output.massFractions ? Y[k] : Y[k] / (W[k] * moles));
-}
-
-std::vector<Quantity> closedColumns(const ReactorCase& reactorCase, const ClosedKind& closed) {
-  std::vector<Quantity> columns{{"time", "s", "time"},
-                                {"temperature", "K", "gas temperature"},
-                                {"pressure", "Pa", "pressure"},
-                                {"density", "kg/m^3", "density"},
-                                {"temperature_rate", "K/s", "dT/dt"},
-                                {"heat_release", "W/m^3", "heat set free by the reactions"}};
-  if (closed.volume) columns.push_back({"volume_ratio", "1", "volume over that at time zero"});
-  if (closed.startAngle) columns.push_back({"crank_angle", "deg", "angle of the crank after top dead centre"});
-  for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
-  return columns;
-}
-
-std::vector<double> closedRow(const ReactorCase& reactorCase, const ClosedKind& closed, ClosedReactor& reactor,
-                              double time, std::span<const double> y) {
-  std::vector<double> f(y.size());
-  reactor.rates(time, y.data(), f.data());
-  const std::size_t n = reactorCase.mechanism->numSpecies();
-  std::vector<double> row{time,
-                          y[n],
-                          reactor.pressure(time, y.data()),
-                          reactor.density(time, y.data()),
-                          f[n],
-                          reactor.heatRelease(time, y.data())};
-  if (closed.volume) row.push_back(closed.volume->ratio(time));
-  if (closed.startAngle) row.push_back((*closed.startAngle + *closed.angularSpeed * time) * 180 / std::numbers::pi);
-  appendSpecies(*reactorCase.mechanism, reactorCase.output, y.first(n), row);
-  return row;
 }
 
 std::vector<Sensitivities> namedSensitivities(const ClosedKind& closed, const IgnitionSensitivities& sensitivities) {

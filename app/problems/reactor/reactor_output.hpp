@@ -13,6 +13,7 @@
 #include "io/json.hpp"
 #include "io/results_writer.hpp"
 #include "io/run_folder.hpp"
+#include "io/table.hpp"
 
 namespace lampblack::app {
 
@@ -21,10 +22,24 @@ std::vector<Quantity> speciesColumns(const Mechanism& mechanism, const ReactorOu
 void appendSpecies(const Mechanism& mechanism, const ReactorOutput& output, std::span<const double> Y,
                    std::vector<double>& row);
 
-// Columns of a closed reactor's history, and a row at a time (s) of it.
-std::vector<Quantity> closedColumns(const ReactorCase& reactorCase, const ClosedKind& closed);
-std::vector<double> closedRow(const ReactorCase& reactorCase, const ClosedKind& closed, ClosedReactor& reactor,
-                              double time, std::span<const double> y);
+// What a row of a history is of: the equations, and their state y at a time (s) or place (m).
+template <typename Equations>
+using StateTable = TableOf<Equations&, double, std::span<const double>>;
+// The chosen species, behind the other columns.
+template <typename Equations>
+void addSpecies(StateTable<Equations>& table, const ReactorCase& reactorCase) {
+  table.add(speciesColumns(*reactorCase.mechanism, reactorCase.output),
+            [&reactorCase](Equations&, double, std::span<const double> y, std::vector<double>& row) {
+              const Mechanism& mechanism = *reactorCase.mechanism;
+              appendSpecies(mechanism, reactorCase.output, y.first(mechanism.numSpecies()), row);
+            });
+}
+// The temperature, which all have.
+template <typename Equations>
+typename StateTable<Equations>::Column temperatureColumn(const ReactorCase& reactorCase) {
+  return {{"temperature", "K", "gas temperature"},
+          [n = reactorCase.mechanism->numSpecies()](Equations&, double, std::span<const double> y) { return y[n]; }};
+}
 
 // Of the ignition delays, by the criteria of the deck.
 std::vector<Sensitivities> namedSensitivities(const ClosedKind& closed, const IgnitionSensitivities& sensitivities);

@@ -14,14 +14,18 @@
 namespace lampblack::app {
 namespace {
 
-std::vector<Quantity> plugFlowColumns(const ReactorCase& reactorCase) {
-  std::vector<Quantity> columns{{"position", "m", "distance from the inlet"},
-                                {"time", "s", "residence time since the inlet"},
-                                {"velocity", "m/s", "velocity of the gas"},
-                                {"temperature", "K", "gas temperature"},
-                                {"density", "kg/m^3", "density"}};
-  for (auto& column : speciesColumns(*reactorCase.mechanism, reactorCase.output)) columns.push_back(std::move(column));
-  return columns;
+StateTable<PlugFlow> plugFlowTable(const ReactorCase& reactorCase) {
+  using State = std::span<const double>;
+  StateTable<PlugFlow> table{
+      {{"position", "m", "distance from the inlet"}, [](PlugFlow&, double z, State) { return z; }},
+      {{"time", "s", "residence time since the inlet"},
+       [](PlugFlow& flow, double, State y) { return flow.residenceTime(y.data()); }},
+      {{"velocity", "m/s", "velocity of the gas"},
+       [](PlugFlow& flow, double, State y) { return flow.velocity(y.data()); }},
+      temperatureColumn<PlugFlow>(reactorCase),
+      {{"density", "kg/m^3", "density"}, [](PlugFlow& flow, double, State y) { return flow.density(y.data()); }}};
+  addSpecies(table, reactorCase);
+  return table;
 }
 
 class PlugFlowDriver : public ReactorOfOneRank {
@@ -31,7 +35,8 @@ class PlugFlowDriver : public ReactorOfOneRank {
         duct_(duct),
         particles_(reactorCase,
                    reactorCase.profile ? ReactorParticleOutput::Kept::elements : ReactorParticleOutput::Kept::enthalpy),
-        history_(plugFlowColumns(reactorCase), particles_.columns()) {}
+        table_(plugFlowTable(reactorCase)),
+        history_(table_.columns(), particles_.columns()) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
@@ -47,9 +52,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
     history_.follow(
         integrator, case_.output.interval, duct_.length, nextStop,
         [&](double z, std::span<const double> y) {
-          std::vector<double> row{z, flow.residenceTime(y.data()), flow.velocity(y.data()), y[n],
-                                  flow.density(y.data())};
-          appendSpecies(*case_.mechanism, case_.output, y.first(n), row);
+          std::vector<double> row = table_.row(flow, z, y);
           particles_.append(duct_.inlet.pressure, flow.density(y.data()), y, row);
           return row;
         },
@@ -94,6 +97,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
   const ReactorCase& case_;
   const PlugFlowKind& duct_;
   ReactorParticleOutput particles_;
+  StateTable<PlugFlow> table_;
   ReactorHistory history_;
   std::optional<ReactorSteadyState> upstream_;
   long steps_ = 0;
