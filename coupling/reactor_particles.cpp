@@ -48,6 +48,10 @@ void ReactorParticles::densities(double density, std::span<const double> amounts
   for (std::size_t s = 0; s < size(); ++s) out[s] = amounts[s] * scales_[s] * density;
 }
 
+void ReactorParticles::amounts(double density, std::span<const double> densities, std::span<double> out) const {
+  for (std::size_t s = 0; s < size(); ++s) out[s] = densities[s] / (scales_[s] * density);
+}
+
 void ReactorParticles::sources(double T, double p, std::span<const double> concentrations,
                                std::span<const double> densities, std::span<double> rates, std::span<double> exchange) {
   for (std::size_t s = 0; s < size(); ++s) densities_[s] = densities[s] * scales_[s];

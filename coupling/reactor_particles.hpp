@@ -58,6 +58,8 @@ class ReactorParticles final : public CarriedPhase {
 
   // Amounts per m3 in the model's units from those of the unknowns, `density` (kg/m3) being that of gas and particles.
   void densities(double density, std::span<const double> amounts, std::span<double> out) const;
+  // The reverse of it.
+  void amounts(double density, std::span<const double> densities, std::span<double> out) const;
   // kg of each element of the mechanism in a unit of each amount.
   [[nodiscard]] std::vector<std::vector<double>> unitElements() const;
 

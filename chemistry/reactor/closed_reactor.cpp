@@ -28,7 +28,6 @@ ClosedReactor::ClosedReactor(const Mechanism& mechanism, const GasState& initial
                              std::optional<TemperatureProfile> profile, CarriedPhase* carried,
                              std::optional<VolumeLaw> volume)
     : mechanism_(mechanism),
-      initial_(initial),
       profile_(std::move(profile)),
       volume_(std::move(volume)),
       thermo_(mechanism),
@@ -40,11 +39,16 @@ ClosedReactor::ClosedReactor(const Mechanism& mechanism, const GasState& initial
       progress_(mechanism.numReactions()),
       reverse_(mechanism.numReactions()),
       energy_(mechanism.numSpecies()) {
+  conditions_.held = held;
+  if (profile_) conditions_.energy = ReactorSystem::Energy::GivenTemperature;
+  startFrom(initial);
+}
+
+void ClosedReactor::startFrom(const GasState& initial) {
+  initial_ = initial;
   if (profile_) initial_.temperature = profile_->value(0.0);
   startDensity_ = thermo_.density(initial_.temperature, initial_.pressure, initial_.Y);
-  conditions_.held = held;
-  conditions_.value = held == ReactorSystem::Held::Pressure ? initial_.pressure : startDensity_;
-  if (profile_) conditions_.energy = ReactorSystem::Energy::GivenTemperature;
+  conditions_.value = conditions_.held == ReactorSystem::Held::Pressure ? initial_.pressure : startDensity_;
   system_.setConditions(conditions_);
 }
 

@@ -32,6 +32,8 @@ class ClosedReactor : public OdeSystem, public OdeParameters {
                 std::optional<TemperatureProfile> profile = std::nullopt, CarriedPhase* carried = nullptr,
                 std::optional<VolumeLaw> volume = std::nullopt);
 
+  // From another start, all else as it is.
+  void startFrom(const GasState& initial);
   // The start as unknowns; a given temperature replaces that of the initial state.
   std::vector<double> initialState() const;
   bool isAdiabatic() const { return !profile_; }

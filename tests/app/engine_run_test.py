@@ -48,6 +48,11 @@ def check_restart(executable: str, deck: pathlib.Path, whole: pathlib.Path, *set
     other = subprocess.run([*command, *running.settings("sample.particles=9"), "--restart", "--force"], capture_output=True, text=True,
                            env=running.environment(), check=False)
     assert other.returncode != 0 and "deck but for repeats" in other.stderr, other
+    # A run of one repeat keeps its cycle, one of several what repeats have left: neither goes on as the other.
+    repeats = "sample.repeats=1" if settings else "sample.repeats=2"
+    one = subprocess.run([*command, *running.settings(repeats), "--restart", "--force"], capture_output=True, text=True, env=running.environment(),
+                         check=False)
+    assert one.returncode != 0 and "another number of repeats" in one.stderr, one
 
 
 def main(executable: str, *mpiexec: str) -> None:

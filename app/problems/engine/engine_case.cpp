@@ -123,6 +123,8 @@ void finishNumerics(const Deck& deck, EngineCase& made) {
 void readSoot(const Deck& deck, EngineCase& made) {
   const Mechanism& mechanism = *made.mechanism;
   if (auto model = readSootModel(deck, mechanism)) {
+    if (!made.options.reacts)
+      throw deck.error("step.reactions", "soot comes of reactions; leave this key out, or the section 'particles'");
     if (deck.isGiven("particles.diffusion"))
       throw deck.error("particles.diffusion",
                        "particles of gas have no place, nothing diffuses between them; leave this key out");

@@ -38,6 +38,7 @@ std::string hashOf(const std::string& text) {
 Fingerprint engineFingerprint(const Deck& deck, const EngineCase& made) {
   const Mechanism& mechanism = *made.mechanism;
   return {{"problem", "engine"},
+          {"number of repeats", made.repeats == 1 ? "one" : "several"},
           {"deck but for repeats and checkpoints", hashOf(linesOf(deck))},
           {"mechanism", fmt::format("{} species, {} reactions, {}", mechanism.numSpecies(), mechanism.numReactions(),
                                     hashOf(mechanismYaml(mechanism)))}};

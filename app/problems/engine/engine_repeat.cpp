@@ -33,7 +33,7 @@ EngineCycles::EngineCycles(MPI_Comm comm, const EngineCase& made, std::uint64_t 
   stops_.erase(std::ranges::unique(stops_, [](double a, double b) { return std::abs(a - b) < 1e-9; }).begin(),
                stops_.end());
   if (!made.soot) return;
-  soot_.emplace(comm, *made.mechanism, thermo_, *made.soot);
+  soot_.emplace(comm, *made.mechanism, thermo_, *made.soot, made.options.reactions);
   cylinder_.carry(*soot_);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace lampblack::chemistry {
@@ -92,14 +93,12 @@ void EngineCylinder::step(double size, RandomStream& random) {
   if (options_.reacts) {
     const double volume = volumeOf(thermo_, gas_);
     const std::vector<double> before = gas_.temperature;
-    const EngineReactions::Work done = reactions_.advance(size, gas_);
+    react(size);
     hotter_ = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       hotter_ = std::max(hotter_, std::abs(gas_.temperature[i] - before[i]));
-    happened = done.growth;
+    happened = volumeOf(thermo_, gas_) - volume;
     ledger_.work += gas_.pressure * happened;
-    ledger_.chemical += done.heat;
-    ledger_.chemistrySteps += done.steps;
     growthRate_ = happened / size;
     defect_ = std::abs(happened - foreseen) / volume;
   }
@@ -108,7 +107,20 @@ void EngineCylinder::step(double size, RandomStream& random) {
   compressTo(options_.volume(end));
 }
 
-// Injection, mixing, what the gas carries, loss of heat, the second time in reverse: by how much the volume grows.
+void EngineCylinder::react(double size) {
+  std::vector<char> isDone(gas_.count(), 0);
+  if (carried_ != nullptr) {
+    const EngineCarried::Work done = carried_->react(size, gas_, isDone);
+    ledger_.carriedEnthalpy += done.given;
+    ledger_.chemical += done.heat;
+    ledger_.chemistrySteps += done.steps;
+  }
+  const EngineReactions::Work done = reactions_.advance(size, gas_, isDone);
+  ledger_.chemical += done.heat;
+  ledger_.chemistrySteps += done.steps;
+}
+
+// Injection, mixing, loss of heat, the second time in reverse: by how much the volume grows.
 double EngineCylinder::others(double from, double size, bool isFirst, RandomStream& random) {
   const double before = volumeOf(thermo_, gas_), middle = from + 0.5 * size;
   const auto inject = [&] {
@@ -120,17 +132,12 @@ double EngineCylinder::others(double from, double size, bool isFirst, RandomStre
   const auto mix = [&] {
     if (options_.mixing != EngineMixingModel::none) mixing_.advance(size, options_.mixingTime.at(middle), random, gas_);
   };
-  const auto exchange = [&] {
-    if (carried_ != nullptr) ledger_.carriedEnthalpy += carried_->advance(size, gas_);
-  };
   if (isFirst) {
     inject();
     mix();
-    exchange();
   }
   ledger_.heat += loss_.advance(size, conductance(middle, size), options_.wallTemperature, random, gas_);
   if (!isFirst) {
-    exchange();
     mix();
     inject();
   }
@@ -195,9 +202,11 @@ double EngineCylinder::elementError() const {
       for (std::size_t e = 0; e < now.size(); ++e)
         brought[e] += ledger_.injectedMass * options_.injection->massFractions[k] /
                       mechanism_.species(k).molecularWeight * mechanism_.atoms(k, e);
+  // Of an element that is not there integrators may leave traces.
+  const double there = 1e-12 * std::accumulate(now.begin(), now.end(), 0.0);
   double most = 0;
   for (std::size_t e = 0; e < now.size(); ++e)
-    if (now[e] > 0) most = std::max(most, std::abs(now[e] - startElements_[e] - brought[e]) / now[e]);
+    if (now[e] > there) most = std::max(most, std::abs(now[e] - startElements_[e] - brought[e]) / now[e]);
   return most;
 }
 

@@ -97,6 +97,7 @@ class EngineCylinder {
     double growthRate = 0;
   };
   void step(double size, RandomStream& random);
+  void react(double size);
   double others(double from, double size, bool isFirst, RandomStream& random);
   void compressTo(double volume) { ledger_.work += compression_.moveTo(volume, gas_); }
   [[nodiscard]] bool isTooLarge(double pressureBefore) const;

@@ -12,6 +12,9 @@
 
 namespace lampblack::chemistry {
 
+// Heat set free is told by the enthalpies at this temperature, K.
+inline constexpr double formationTemperature = 298.15;
+
 struct EngineGas {
   std::size_t species = 0;
   double pressure = 0;              // Pa

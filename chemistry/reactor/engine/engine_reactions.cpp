@@ -8,7 +8,6 @@
 namespace lampblack::chemistry {
 namespace {
 
-constexpr double formationTemperature = 298.15;  // K
 // What travels before the mass fractions, there and back.
 constexpr std::size_t sentValues = 4, returnedValues = 4;
 
@@ -16,17 +15,18 @@ constexpr std::size_t sentValues = 4, returnedValues = 4;
 
 EngineReactions::EngineReactions(MPI_Comm comm, const Mechanism& mechanism, const Thermo& thermo,
                                  const ConstantPressureReactor::Options& options)
-    : comm_(comm), thermo_(thermo), reactor_(mechanism, options), formation_(mechanism.numSpecies()) {
+    : comm_(comm), reactor_(mechanism, options), formation_(mechanism.numSpecies()) {
   MPI_Comm_rank(comm, &rank_);
   MPI_Comm_size(comm, &ranks_);
   thermo.speciesEnthalpies(formationTemperature, formation_);
 }
 
-EngineReactions::Work EngineReactions::advance(double duration, EngineGas& gas) {
+EngineReactions::Work EngineReactions::advance(double duration, EngineGas& gas, const std::vector<char>& isDone) {
   const std::size_t species = gas.species, width = returnedValues + species;
   const auto ranks = static_cast<std::size_t>(ranks_), rank = static_cast<std::size_t>(rank_);
   std::vector<std::size_t> own;
-  for (std::size_t i = rank; i < gas.count(); i += ranks) own.push_back(i);
+  for (std::size_t i = rank; i < gas.count(); i += ranks)
+    if (isDone[i] == 0) own.push_back(i);
   rows_.assign(gas.count() * width, 0);
 
   WorkSharing::Items items;
@@ -64,8 +64,8 @@ EngineReactions::Work EngineReactions::advance(double duration, EngineGas& gas) 
   if (ranks_ > 1) MPI_Allreduce(MPI_IN_PLACE, rows_.data(), static_cast<int>(rows_.size()), MPI_DOUBLE, MPI_SUM, comm_);
 
   Work done;
-  const double before = volumeOf(thermo_, gas);
   for (std::size_t i = 0; i < gas.count(); ++i) {
+    if (isDone[i] != 0) continue;
     const std::span<const double> row = std::span<const double>(rows_).subspan(i * width, width);
     gas.temperature[i] = row[0];
     gas.firstStep[i] = row[1];
@@ -77,7 +77,6 @@ EngineReactions::Work EngineReactions::advance(double duration, EngineGas& gas) 
       gas.Y(i)[k] = Y;
     }
   }
-  done.growth = volumeOf(thermo_, gas) - before;
   return done;
 }
 
