@@ -3,21 +3,13 @@
 #include <stdexcept>
 
 #include "app/problems/aggregates/aggregates_case.hpp"
-#include "app/problems/aggregates/aggregates_run.hpp"
 #include "app/problems/engine/engine_case.hpp"
-#include "app/problems/engine/engine_run.hpp"
 #include "app/problems/flame/flame_case.hpp"
-#include "app/problems/flame/flame_run.hpp"
 #include "app/problems/flow/flow_case.hpp"
-#include "app/problems/flow/flow_run.hpp"
 #include "app/problems/pah/pah_case.hpp"
-#include "app/problems/pah/pah_run.hpp"
 #include "app/problems/population/population_case.hpp"
-#include "app/problems/population/population_run.hpp"
 #include "app/problems/prescribed_gas/prescribed_gas_case.hpp"
-#include "app/problems/prescribed_gas/prescribed_gas_run.hpp"
 #include "app/problems/reactor/reactor_case.hpp"
-#include "app/problems/reactor/reactor_run.hpp"
 
 namespace lampblack::app {
 

@@ -4,11 +4,13 @@
 
 #include <cmath>
 #include <memory>
+#include <ranges>
 #include <vector>
 
 #include "app/shell/problem.hpp"
 #include "io/deck_keys.hpp"
 #include "io/hdf5_reader.hpp"
+#include "io/table.hpp"
 #include "tests/app/app_fixture.hpp"
 #include "tests/messages.hpp"
 #include "tests/shared_scratch.hpp"
@@ -25,46 +27,36 @@ struct DecayCase {
 
 DeckKeys<DecayCase> decayKeys() {
   DeckKeys<DecayCase> keys("");
+  keys.choice("problem", {"decay"}, rules(), "What is solved.");
   keys.quantity("rate", units::frequency, &DecayCase::rate, rules().required().above(0), "How fast it decays.");
   keys.quantity("end", units::time, &DecayCase::end, rules().above(0), "Simulated time.");
   keys.integer("rows", &DecayCase::rows, rules().atLeast(1).atMost(1000), "Rows of the table behind the first.");
   return keys;
 }
 
-class Decay : public PreparedRun {
+class Decay : public PreparedRunOf<DecayCase> {
  public:
-  Decay(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck), case_(decayKeys().read(deck)) {}
+  Decay(MPI_Comm comm, const Deck& deck)
+      : PreparedRunOf(comm, deck, [](const Deck& keys) { return decayKeys().read(keys); }) {}
   [[nodiscard]] std::string summary() const override { return fmt::format("decay at {:g} 1/s", case_.rate); }
   void run(const RunOptions& options) override {
-    recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord& record) {
-      std::vector<double> rows;
-      for (int i = 0; i <= case_.rows; ++i) {
-        const double time = case_.end * i / case_.rows;
-        rows.insert(rows.end(), {time, std::exp(-case_.rate * time)});
-      }
-      record.simulatedTime = case_.end;
+    recordedRun(comm_, deck_, options, 0, [&](const RunFolder& folder, const RunInfo& info, RunRecord&) {
+      const TableOf<int> decay{
+          {{"time", "s", "time"}, [this](int row) { return timeOf(row); }},
+          {{"amount", "1", "what is left"}, [this](int row) { return std::exp(-case_.rate * timeOf(row)); }}};
       ResultsWriter results(comm_, folder.results(), info);
-      results.table("/decay", {{"time", "s", "time"}, {"amount", "1", "what is left"}}, rows);
+      decay.of(std::views::iota(0, case_.rows + 1)).write(results, "/decay");
       results.close();
     });
   }
 
  private:
-  MPI_Comm comm_;
-  const Deck& deck_;
-  DecayCase case_;
+  [[nodiscard]] double timeOf(int row) const { return case_.end * row / case_.rows; }
 };
-
-DeckSchema decaySchema() {
-  return DeckSchema(decayKeys().schema()).add(choiceKey("problem", {"decay"}, "What is solved."));
-}
 
 std::vector<Problem> problemsAndDecay() {
   std::vector<Problem> table = problems();
-  table.push_back({"decay", "Something vanishes.", decaySchema,
-                   [](MPI_Comm comm, const Deck& deck) -> std::unique_ptr<PreparedRun> {
-                     return std::make_unique<Decay>(comm, deck);
-                   }});
+  table.push_back({"decay", "Something vanishes.", [] { return decayKeys().schema(); }, preparedAs<Decay>});
   return table;
 }
 

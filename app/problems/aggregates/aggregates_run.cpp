@@ -1,11 +1,10 @@
-#include "app/problems/aggregates/aggregates_run.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "app/problems/aggregates/aggregates_case.hpp"
 #include "app/problems/aggregates/aggregates_output.hpp"
+#include "app/run/prepared_run.hpp"
 #include "core/errors.hpp"
 #include "core/repeats.hpp"
 #include "core/stop_request.hpp"
@@ -16,13 +15,9 @@
 namespace lampblack::app {
 namespace {
 
-class PreparedAggregates : public PreparedRun {
+class PreparedAggregates : public PreparedRunOf<AggregatesCase> {
  public:
-  PreparedAggregates(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
-    MPI_Comm_rank(comm, &rank_);
-    MPI_Comm_size(comm, &ranks_);
-    collectively(comm, [&] { case_ = readAggregatesCase(deck); });
-  }
+  PreparedAggregates(MPI_Comm comm, const Deck& deck) : PreparedRunOf(comm, deck, readAggregatesCase) {}
 
   [[nodiscard]] std::string summary() const override {
     const std::string what = case_.build == AggregatesCase::Build::collisions
@@ -89,10 +84,6 @@ class PreparedAggregates : public PreparedRun {
                lastOf("shadow"));
   }
 
-  MPI_Comm comm_;
-  const Deck& deck_;
-  int rank_ = 0, ranks_ = 1;
-  AggregatesCase case_;
   std::vector<SphereAggregate> drawn_;  // of rank 0, who has repeat 0
 };
 

@@ -2,6 +2,8 @@
 // the inlet and the opening of the exhaust, how many particles and repeats, and what is written.
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -19,6 +21,8 @@
 #include "io/deck_keys.hpp"
 
 namespace lampblack::app {
+
+class PreparedRun;
 
 struct EngineCase {
   std::string title;
@@ -75,5 +79,8 @@ const std::vector<NamedHeatLaw>& engineHeatLaws();
 
 // Collective only in warnings; InputError, pointing into the deck.
 EngineCase readEngineCase(const Deck& deck);
+
+// Collective; see Problem. Several repeats are spread over the ranks; of one the ranks share the reactions.
+std::unique_ptr<PreparedRun> prepareEngine(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

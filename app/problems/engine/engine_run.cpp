@@ -1,5 +1,3 @@
-#include "app/problems/engine/engine_run.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include "app/problems/engine/engine_checkpoint.hpp"
 #include "app/problems/engine/engine_output.hpp"
 #include "app/problems/engine/engine_repeat.hpp"
+#include "app/run/prepared_run.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/repeats.hpp"
@@ -24,15 +23,10 @@ namespace {
 // A repeat that was cut off by a request to stop.
 struct EngineCut {};
 
-class PreparedEngine : public PreparedRun {
+class PreparedEngine : public PreparedRunOf<EngineCase> {
  public:
-  PreparedEngine(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
-    MPI_Comm_rank(comm, &rank_);
-    MPI_Comm_size(comm, &ranks_);
-    collectively(comm, [&] {
-      case_ = readEngineCase(deck);
-      (void)deck_.at("charge", [&] { return engineCharge(case_, 0, {}); });
-    });
+  PreparedEngine(MPI_Comm comm, const Deck& deck) : PreparedRunOf(comm, deck, readEngineCase) {
+    collectively(comm, [&] { (void)deck_.at("charge", [&] { return engineCharge(case_, 0, {}); }); });
   }
 
   [[nodiscard]] std::string summary() const override {
@@ -211,10 +205,6 @@ class PreparedEngine : public PreparedRun {
         at("chemical_heat"), at("energy_error"));
   }
 
-  MPI_Comm comm_;
-  const Deck& deck_;
-  int rank_ = 0, ranks_ = 1;
-  EngineCase case_;
   EngineProgress progress_;
 };
 

@@ -2,6 +2,8 @@
 // one-dimensional flames.
 #pragma once
 
+#include <mpi.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +21,8 @@
 #include "io/deck.hpp"
 
 namespace lampblack::app {
+
+class PreparedRun;
 
 // The flame in time, from its steady state or from the earlier flame as it is; strain as 1 + amplitude sin(2 pi f t).
 struct FlameUnsteady {
@@ -53,5 +57,9 @@ FlameCase readFlameCase(const Deck& deck);
 
 // "free", "burner", "wall", "counterflow".
 const char* nameOf(FlameType type);
+
+// Collective; see Problem. Prepared is the first guess. A run whose flame does not converge throws NumericsError;
+// results.h5.part then holds its last grid and profile, from which another run can start.
+std::unique_ptr<PreparedRun> prepareFlame(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

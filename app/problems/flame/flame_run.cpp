@@ -1,5 +1,3 @@
-#include "app/problems/flame/flame_run.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "app/problems/flame/flame_in_time.hpp"
 #include "app/problems/flame/flame_output.hpp"
 #include "app/problems/flame/flame_stochastic.hpp"
+#include "app/run/prepared_run.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "core/timers.hpp"

@@ -1,6 +1,8 @@
 // What a deck with `problem: flow` asks for, checked and in SI: the bridge from the words of the deck to the operators.
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -36,6 +38,8 @@
 #include "particles/gas/soot_gas.hpp"
 
 namespace lampblack::app {
+
+class PreparedRun;
 
 // When a run that does not change any more ends.
 struct SteadyControl {
@@ -202,5 +206,8 @@ DeckSchema flowSchema();
 
 // Reads the mechanism and checks what the schema cannot: names of species, patches, sides. InputError otherwise.
 FlowCase readFlowCase(const Deck& deck);
+
+// Collective; see Problem. Prepared are the mesh, the operators and the state at the start.
+std::unique_ptr<PreparedRun> prepareFlow(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

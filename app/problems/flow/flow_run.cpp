@@ -1,5 +1,3 @@
-#include "app/problems/flow/flow_run.hpp"
-
 #include <fmt/format.h>
 
 #include <optional>
@@ -7,7 +5,9 @@
 #include <vector>
 
 #include "app/problems/flow/coarser_meshes.hpp"
+#include "app/problems/flow/flow_case.hpp"
 #include "app/problems/flow/flow_loop.hpp"
+#include "app/run/prepared_run.hpp"
 #include "app/run/recorded_run.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"

@@ -1,6 +1,8 @@
 // What a deck with `problem: pah` asks for: a molecule, the gas it grows in, rates, how often, and what is written.
 #pragma once
 
+#include <mpi.h>
+
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -15,6 +17,8 @@
 #include "particles/pah/site_closure.hpp"
 
 namespace lampblack::app {
+
+class PreparedRun;
 
 struct PahCase {
   std::string title;
@@ -40,5 +44,8 @@ DeckSchema pahSchema();
 
 // InputError, pointing into the deck.
 PahCase readPahCase(const Deck& deck);
+
+// Collective; see Problem. Molecules are spread over the ranks.
+std::unique_ptr<PreparedRun> preparePah(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

@@ -1,5 +1,3 @@
-#include "app/problems/pah/pah_run.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include "app/problems/pah/pah_case.hpp"
 #include "app/problems/pah/pah_checkpoint.hpp"
 #include "app/problems/pah/pah_output.hpp"
+#include "app/run/prepared_run.hpp"
 #include "app/run/warnings.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
@@ -51,14 +50,9 @@ std::uint64_t sumOf(const auto& growth) {
   return sum;
 }
 
-class PreparedPah : public PreparedRun {
+class PreparedPah : public PreparedRunOf<PahCase> {
  public:
-  PreparedPah(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
-    MPI_Comm_rank(comm, &rank_);
-    MPI_Comm_size(comm, &ranks_);
-    collectively(comm, [&] { case_ = readPahCase(deck); });
-    warnOfPressure();
-  }
+  PreparedPah(MPI_Comm comm, const Deck& deck) : PreparedRunOf(comm, deck, readPahCase) { warnOfPressure(); }
 
   [[nodiscard]] std::string summary() const override {
     const Molecule start = case_.start();
@@ -216,11 +210,6 @@ class PreparedPah : public PreparedRun {
                sums.standardError(last, 0), sums.mean(last, 1), sums.standardError(last, 1), sums.count(last),
                case_.repeats, static_cast<double>(sums.events()));
   }
-
-  MPI_Comm comm_;
-  const Deck& deck_;
-  int rank_ = 0, ranks_ = 1;
-  PahCase case_;
 };
 
 }  // namespace

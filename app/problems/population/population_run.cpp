@@ -1,5 +1,3 @@
-#include "app/problems/population/population_run.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "app/problems/population/population_case.hpp"
 #include "app/problems/population/population_output.hpp"
 #include "app/problems/population/population_progress.hpp"
+#include "app/run/prepared_run.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
@@ -19,13 +18,10 @@ namespace lampblack::app {
 
 namespace {
 
-class PreparedPopulation : public PreparedRun {
+class PreparedPopulation : public PreparedRunOf<PopulationCase> {
  public:
-  PreparedPopulation(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
-    collectively(comm, [&] {
-      case_ = readPopulationCase(deck);
-      exact_ = exactSolution(case_);
-    });
+  PreparedPopulation(MPI_Comm comm, const Deck& deck) : PreparedRunOf(comm, deck, readPopulationCase) {
+    collectively(comm, [&] { exact_ = exactSolution(case_); });
     printWarnings(case_.warnings);
     if (exact_ && exact_->gelationTime() && *exact_->gelationTime() <= case_.times.end)
       printWarnings(
@@ -83,9 +79,6 @@ class PreparedPopulation : public PreparedRun {
   }
 
  private:
-  MPI_Comm comm_;
-  const Deck& deck_;
-  PopulationCase case_;
   std::unique_ptr<ExactSolution> exact_;
 };
 

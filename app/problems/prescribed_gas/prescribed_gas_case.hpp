@@ -3,6 +3,8 @@
 // with it as with the gas of a reactor.
 #pragma once
 
+#include <mpi.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +19,8 @@
 #include "particles/models/particle_model.hpp"
 
 namespace lampblack::app {
+
+class PreparedRun;
 
 struct PrescribedGasCase {
   std::string title;
@@ -36,5 +40,8 @@ DeckSchema prescribedGasSchema();
 
 // Reads mechanism, gas and particles. InputError, pointing into the deck.
 PrescribedGasCase readPrescribedGasCase(const Deck& deck);
+
+// Collective; see Problem. Repeats of an ensemble are spread over the ranks; a model runs on the first.
+std::unique_ptr<PreparedRun> preparePrescribedGas(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

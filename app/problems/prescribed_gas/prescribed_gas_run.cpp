@@ -1,5 +1,3 @@
-#include "app/problems/prescribed_gas/prescribed_gas_run.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include "app/problems/prescribed_gas/prescribed_gas_case.hpp"
 #include "app/problems/prescribed_gas/prescribed_gas_output.hpp"
 #include "app/problems/reactor/reactor_driver.hpp"
+#include "app/run/prepared_run.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "io/history.hpp"
@@ -16,12 +15,10 @@
 namespace lampblack::app {
 namespace {
 
-class PreparedPrescribedGas : public PreparedRun {
+class PreparedPrescribedGas : public PreparedRunOf<PrescribedGasCase> {
  public:
-  PreparedPrescribedGas(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
-    MPI_Comm_rank(comm, &rank_);
+  PreparedPrescribedGas(MPI_Comm comm, const Deck& deck) : PreparedRunOf(comm, deck, readPrescribedGasCase) {
     collectively(comm, [&] {
-      case_ = readPrescribedGasCase(deck);
       if (case_.coupled) driver_ = ensembleReactorDriver(*case_.coupled);
     });
   }
@@ -141,10 +138,6 @@ class PreparedPrescribedGas : public PreparedRun {
     });
   }
 
-  MPI_Comm comm_;
-  const Deck& deck_;
-  int rank_ = 0;
-  PrescribedGasCase case_;
   std::unique_ptr<ReactorDriver> driver_;  // where particles and gas are coupled
 };
 

@@ -2,6 +2,8 @@
 // reactors.
 #pragma once
 
+#include <mpi.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,6 +19,8 @@
 #include "io/deck.hpp"
 
 namespace lampblack::app {
+
+class PreparedRun;
 
 struct ReactorOutput {
   std::optional<double> interval;    // s (plug flow: m) between rows; every step otherwise
@@ -52,5 +56,8 @@ DeckSchema reactorSchema();
 
 // Reads the mechanism and checks what the schema cannot. InputError otherwise.
 ReactorCase readReactorCase(const Deck& deck);
+
+// Collective; see Problem. A reactor has one cell: rank 0 computes, the others wait.
+std::unique_ptr<PreparedRun> prepareReactor(MPI_Comm comm, const Deck& deck);
 
 }  // namespace lampblack::app

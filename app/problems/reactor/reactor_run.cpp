@@ -1,10 +1,10 @@
-#include "app/problems/reactor/reactor_run.hpp"
-
 #include <fmt/format.h>
 
 #include <memory>
 
+#include "app/problems/reactor/reactor_case.hpp"
 #include "app/problems/reactor/reactor_driver.hpp"
+#include "app/run/prepared_run.hpp"
 #include "core/errors.hpp"
 #include "core/stop_request.hpp"
 #include "io/table.hpp"
@@ -17,13 +17,10 @@ std::unique_ptr<ReactorDriver> driverOf(const ReactorCase& reactorCase) {
   return reactorCase.kind->driver(reactorCase);
 }
 
-class PreparedReactor : public PreparedRun {
+class PreparedReactor : public PreparedRunOf<ReactorCase> {
  public:
-  PreparedReactor(MPI_Comm comm, const Deck& deck) : comm_(comm), deck_(deck) {
-    collectively(comm, [&] {
-      case_ = readReactorCase(deck);
-      driver_ = driverOf(case_);
-    });
+  PreparedReactor(MPI_Comm comm, const Deck& deck) : PreparedRunOf(comm, deck, readReactorCase) {
+    collectively(comm, [&] { driver_ = driverOf(case_); });
   }
 
   [[nodiscard]] std::string summary() const override {
@@ -40,9 +37,6 @@ class PreparedReactor : public PreparedRun {
   }
 
  private:
-  MPI_Comm comm_;
-  const Deck& deck_;
-  ReactorCase case_;
   std::unique_ptr<ReactorDriver> driver_;
 };
 
