@@ -35,6 +35,9 @@ constexpr double mostGrown = 1e4;
 // is none. For a few iterations a flame that burns may release less, or take up heat.
 constexpr double leftOfHeat = 0.1;
 constexpr int darkIterations = 20;
+// In a flow at rest: iterations by themselves that leave no less of the largest residual, by that share, and combined
+// ones that follow on them.
+constexpr int mostAlone = 10, combinedInstead = 50;
 // Steps before the first attempt; iterations of one, and of these without gain where it goes on beyond them.
 constexpr int stepsOfAttempt = 20, mostOfAttempt = 300, patienceOfAttempt = 30;
 
@@ -111,7 +114,19 @@ void SteadySearch::beginIterations(const Residual& residual, double heatRelease)
   best_ = residual;
   heatAtBegin_ = heatRelease;
   mostHeat_ = std::max(heatAtBegin_, 0.0);
-  iterationsNow_ = bestAt_ = failures_ = dark_ = 0;
+  iterationsNow_ = bestAt_ = failures_ = dark_ = alone_ = combined_ = 0;
+}
+
+void SteadySearch::chooseKind() {
+  if (!isFlowAtRest() || combined_ > 0) {
+    combined_ = isFlowAtRest() ? combined_ - 1 : 0;
+    alone_ = 0;
+  } else if (alone_ == 0 || latest_.largest < gain * leastAlone_) {
+    leastAlone_ = latest_.largest;
+    alone_ = 1;
+  } else if (++alone_ > mostAlone) {
+    combined_ = combinedInstead;
+  }
 }
 
 void SteadySearch::addLighting() {
@@ -128,6 +143,7 @@ void SteadySearch::addIteration(const Residual& told, double heatRelease, bool b
   ++iterationsNow_;
   failures_ = 0;
   latest_ = told;
+  chooseKind();
   dark_ = heatAtBegin_ > 0.0 && heatRelease < leftOfHeat * heatAtBegin_ ? dark_ + 1 : 0;
   if (dark_ >= darkIterations) {
     goBack(fmt::format("the flame has gone out: {:.3g} W of {:.3g} W were left", heatRelease, heatAtBegin_));
@@ -218,7 +234,7 @@ double SteadySearch::progress() const {
 }
 
 void SteadySearch::saveOrLoad(StateArchive& archive) {
-  const std::array<double*, 13> values{&first_,
+  const std::array<double*, 14> values{&first_,
                                        &least_,
                                        &latest_.largest,
                                        &latest_.ofMomentum,
@@ -230,11 +246,12 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
                                        &mostHeat_,
                                        &best_.largest,
                                        &best_.ofMomentum,
-                                       &best_.ofEnthalpy};
+                                       &best_.ofEnthalpy,
+                                       &leastAlone_};
   std::vector<double> numbers;
   for (const double* value : values) numbers.push_back(*value);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
-                     &dark_, &lightings_, &iterationsBefore_})
+                     &dark_, &lightings_, &iterationsBefore_, &alone_, &combined_})
     numbers.push_back(*count);
   numbers.push_back(phase_ == Phase::Iterations ? 1.0 : 0.0);
   for (const int count : {attempts_, attempted_, isAttempt_ ? 1 : 0}) numbers.push_back(count);
@@ -250,7 +267,7 @@ void SteadySearch::saveOrLoad(StateArchive& archive) {
   std::size_t next = 0;
   for (double* value : values) *value = numbers.at(next++);
   for (int* count : {&steps_, &iterations_, &returns_, &stepsNow_, &undisturbed_, &iterationsNow_, &bestAt_, &failures_,
-                     &dark_, &lightings_, &iterationsBefore_})
+                     &dark_, &lightings_, &iterationsBefore_, &alone_, &combined_})
     *count = static_cast<int>(numbers.at(next++));
   phase_ = numbers.at(next++) != 0.0 ? Phase::Iterations : Phase::Steps;
   for (int* count : {&attempts_, &attempted_}) *count = static_cast<int>(numbers.at(next++));

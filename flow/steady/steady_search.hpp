@@ -39,6 +39,9 @@ class SteadySearch {
   [[nodiscard]] bool isSteady() const { return isSteady_; }
   // Whether nothing is left of momentum, as far as the search asks for it.
   [[nodiscard]] bool isFlowAtRest() const { return latest_.ofMomentum <= options_.residual; }
+  // Whether iterations may be Newton's or combined (SteadyIteration): no more where the flow is at rest, but for a
+  // while where those by themselves then lead nowhere.
+  [[nodiscard]] bool mayAccelerate() const { return !isFlowAtRest() || combined_ > 0; }
   // Whether iterations and returns are used up.
   [[nodiscard]] bool isGivenUp() const { return isGivenUp_; }
   // Whether the residual of the state after the last step has to be told before the next.
@@ -86,6 +89,7 @@ class SteadySearch {
 
  private:
   void beginIterations(const Residual& residual, double heatRelease);
+  void chooseKind();
   [[nodiscard]] int leastNow() const;  // steps before iterations
   [[nodiscard]] bool isEstablished() const;
   [[nodiscard]] bool isNear() const;
@@ -110,6 +114,10 @@ class SteadySearch {
   double heatAtBegin_ = 0.0, mostHeat_ = 0.0;
   Residual best_{0.0};  // the least of each since iterations began
   int iterationsNow_ = 0, bestAt_ = 0;
+  // In a flow at rest: iterations by themselves since one that left less, with the largest residual then; combined ones
+  // that are to come.
+  int alone_ = 0, combined_ = 0;
+  double leastAlone_ = 0.0;
   int failures_ = 0, dark_ = 0;  // in a row: failures, iterations with a small part of that heat
   int attempts_ = 0, attempted_ = 0;
   bool isAttempt_ = false;

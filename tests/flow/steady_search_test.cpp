@@ -32,6 +32,32 @@ TEST(SteadySearch, KnowsAFlowThatIsAtRest) {
   EXPECT_TRUE(search.isFlowAtRest() && other.isFlowAtRest() && !search.isSteady());
 }
 
+// Where a flow at rest is left with something that iterations by themselves do not take away, as where eddies mix, they
+// are combined again for a while.
+TEST(SteadySearch, CombinesIterationsAgainWhereTheyAloneLeadNowhere) {
+  SteadySearch search({.residual = 1e-6}), other({.residual = 1e-6});
+  steps(search);
+  EXPECT_TRUE(search.mayAccelerate());
+  search.addIteration({1e-3, 2e-6, 1e-5}, 1.0);
+  EXPECT_TRUE(search.mayAccelerate());
+  double residual = 1e-4;
+  for (int i = 0; i < 20; ++i) {  // fall by themselves
+    search.addIteration({residual *= 0.85, 9e-7, 1e-6}, 1.0);
+    EXPECT_FALSE(search.mayAccelerate());
+  }
+  for (int i = 0; i < 9; ++i) search.addIteration({residual *= 0.995, 9e-7, 1e-6}, 1.0);
+  EXPECT_FALSE(search.mayAccelerate());
+  pass(search, other);
+  for (SteadySearch* of : {&search, &other}) {
+    int combined = 0, alone = 0;
+    of->addIteration({residual, 9e-7, 1e-6}, 1.0);
+    for (; of->mayAccelerate() && combined < 1000; ++combined) of->addIteration({residual, 9e-7, 1e-6}, 1.0);
+    EXPECT_EQ(combined, 50);
+    for (; !of->mayAccelerate() && alone < 1000; ++alone) of->addIteration({residual, 9e-7, 1e-6}, 1.0);
+    EXPECT_EQ(alone, 11);
+  }
+}
+
 // As many iterations and returns as at the start; what was found before is not found any more.
 TEST(SteadySearch, GoesOnWhereWhatActsHasChanged) {
   SteadySearch search({.residual = 1e-7, .iterations = 10});

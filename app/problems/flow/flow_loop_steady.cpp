@@ -127,7 +127,7 @@ void FlowLoop::iterate(Outputs& outputs) {
     SteadyIteration::Outcome outcome;
     {
       const Timers::Scope timer(timers_, "steady iterations");
-      outcome = iteration_->iterate(domain_->state, !search_->isFlowAtRest());
+      outcome = iteration_->iterate(domain_->state, search_->mayAccelerate());
     }
     ++steps_;
     if (outcome.taken) {
