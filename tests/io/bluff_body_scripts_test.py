@@ -101,10 +101,13 @@ def check_soot(folder):
     (found,) = json.loads(told)
     assert abs(found["recirculation_end"] - 2.74) < 1e-9, found
     assert abs(found["soot"]["z"] - 1) < 0.1 and abs(found["soot"]["r"] - 0.8) < 0.03 and abs(found["soot"]["largest"] - 1e-7) < 1e-9, found
+    assert found["zone"] == found["soot"], found
     row = next(row for row in found["places"] if row["at"] == 2.0)
     assert abs(row["axis"] - 28) < 1e-9 and abs(row["mixture"] - 0.7) < 1e-9 and abs(row["peak"] - 1950) < 1e-6, row
     assert abs(row["soot_at"] - 0.8) < 0.03 and abs(row["soot"] / 1e-7 - np.exp(-1)) < 0.02 and row["soot_on_axis"] < 0.6 * row["soot"], row
     assert row["modes"] == [[3, 8], [5], [5]], row
+    code, _, err = called("bluff_body_soot", run, run, "--picture", folder / "soot.png")
+    assert code == 0 and (folder / "soot.png").stat().st_size > 1000, err
     code, told, err = called("bluff_body_soot", run)
     assert code == 0 and "gas last goes back at z/R 2.74" in told and "r/R 0: 2 (3 8)" in told, told + err
     code, _, err = called("bluff_body_soot", folder / "nowhere")
