@@ -121,6 +121,7 @@ class TransportOperator : public Operator {
   void adopt(const State& state);
 
  private:
+  [[nodiscard]] double frictionAboutAxis(int face, const State& state) const;
   void evaluateDiffusion(const State& state);
   void findCarriedFlux(const State& state);  // and the drift, of the properties and faces as they are
   void keepBoundaryFlux(int face, std::span<const double> row);

@@ -67,8 +67,18 @@ TransportOperator::Integrals TransportOperator::integrals(const State& state) {
   return {sums[0], sums[1]};
 }
 
+// Pa, of the gas on a wall that it sticks to; the angular velocity is what friction evens out.
+double TransportOperator::frictionAboutAxis(int face, const State& state) const {
+  const Mesh& m = context_.mesh;
+  if (!state.swirls || !context_.boundaryOf(face).isNoSlipWall()) return 0.0;
+  const int cell = m.low[face];
+  const double carried = m.faceCentre[face][0] * state.swirl[cell] / m.centre[cell][0];
+  return properties_.effectiveBoundaryViscosity()[face - m.interiorFaces] * (carried - context_.boundarySwirl(face)) /
+         m.distance[face];
+}
+
 std::vector<BoundaryTotals> TransportOperator::boundaryTotals(const State& state) {
-  constexpr std::size_t width = 10;
+  constexpr std::size_t width = 11;
   const Mesh& m = context_.mesh;
   momentum_.forces().velocityGradient(state);
   const std::vector<double> pressure = momentum_.forces().boundaryPressures(state);
@@ -85,12 +95,13 @@ std::vector<BoundaryTotals> TransportOperator::boundaryTotals(const State& state
       sum[4 + i] += pressure[b] * m.area[face] * m.normal[face][i];
       sum[7 + i] += friction[i];
     }
+    sum[10] += m.faceCentre[face][0] * m.area[face] * frictionAboutAxis(face, state);
   }
   MPI_Allreduce(MPI_IN_PLACE, sums.data(), static_cast<int>(sums.size()), MPI_DOUBLE, MPI_SUM, m.comm);
   std::vector<BoundaryTotals> totals;
   for (std::size_t b = 0; b < context_.boundaries.size(); ++b) {
     const double* s = &sums[width * b];
-    totals.push_back({s[0], s[1], s[2], s[3], {s[4], s[5], s[6]}, {s[7], s[8], s[9]}});
+    totals.push_back({s[0], s[1], s[2], s[3], {s[4], s[5], s[6]}, {s[7], s[8], s[9]}, s[10]});
   }
   return totals;
 }
@@ -107,6 +118,7 @@ std::vector<WallFace> TransportOperator::wallFaces(const State& state, int bound
     const Vector3 along = difference(traction, scaled(m.normal[face], dot(traction, m.normal[face])));
     const double density = state.density[m.low[face]];
     WallFace wall{m.faceNumber[face], m.faceCentre[face], m.area[face], scaled(along, 1.0 / m.area[face])};
+    if (state.swirls) wall.friction[2] = frictionAboutAxis(face, state);
     wall.yPlus = std::sqrt(length(wall.friction) * density) * m.distance[face] / properties_.boundaryViscosity[b];
     wall.heatFlux = -heat_.heat[face] / m.area[face];
     own.push_back(wall);

@@ -102,6 +102,22 @@ TEST_F(SwirlInAVessel, HasTheMomentByWhichAShortStepTurnsIt) {
   transport.initialise(state, shortStep);
   FlowResidual residual(box.context, state, VelocityScheme::Limited, {});
   const std::vector<double> moment = residual.evaluate(state).angularMomentum, before = state.swirl;
+  const std::vector<BoundaryTotals> totals = transport.boundaryTotals(state);
+  double onWalls = 0.0;
+  for (const BoundaryTotals& of : totals) onWalls += of.torque;
+  double onGas = 0.0, size = 0.0;
+  for (const double value : moment) {
+    onGas += value;
+    size += std::abs(value);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &onGas, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  MPI_Allreduce(MPI_IN_PLACE, &size, 1, MPI_DOUBLE, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_NEAR(onWalls, -onGas, 1e-10 * size);
+  EXPECT_GT(std::abs(onGas), 1e-3 * size);
+  const std::vector<WallFace> faces = transport.wallFaces(state, 1);  // the mantle
+  double onMantle = 0.0;
+  for (const WallFace& face : faces) onMantle += radius * face.area * face.friction[2];
+  EXPECT_NEAR(onMantle, worldRank() == 0 ? totals[1].torque : 0.0, 1e-10 * size);
   transport.advance(state, 0.0, shortStep);
   double most = 0.0, differs = 0.0;
   for (int c = 0; c < box.mesh.owned; ++c) {

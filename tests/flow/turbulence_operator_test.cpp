@@ -229,6 +229,8 @@ TEST(Turbulence, BuoyancyIsThatOfTheDensityAlongGravity) {
       EXPECT_NEAR(state.carriedDiffusivity[at(2 * c + 1)], isWanted ? std::tanh(4.0 / 3.0) : 0.0, 1e-12);
     }
   }
+}
+
 // In shear, k begins with as much production as dissipation where there would be more.
 TEST(Turbulence, BeginsInShearWithEddiesThatAreInBalance) {
   Gas& gas = Gas::hydrogen();

@@ -99,6 +99,7 @@ FlowTables::FlowTables(const FlowContext& context, const FlowCase& flowCase, con
     columns.push_back({"area", integralUnit(context.mesh, "m^2"), "of the face"});
     for (const std::string& axis : axes)
       columns.push_back({"friction_" + axis, "Pa", "of the gas along the wall, along " + axis});
+    if (case_.swirls) columns.push_back({"friction_swirl", "Pa", "the same about the axis"});
     columns.push_back({"y_plus", "1", "of the centre of the cell beside"});
     columns.push_back({"heat_flux", "W/m^2", "conducted into the gas, mean of the step"});
     const std::string name = flowcase::fileNameOf(flowCase.boundaries[b].name);
@@ -205,6 +206,7 @@ std::vector<Quantity> FlowTables::boundaryColumns(std::size_t boundary) const {
     for (const std::string& axis : flowcase::axisNames(case_))
       columns.push_back({fmt::format("{}_force_{}", part, axis), unit("N"),
                          fmt::format("{} force of the gas on it along {}", part, axis)});
+  if (case_.swirls) columns.push_back({"torque", unit("N m"), "of the gas on it about the axis"});
   if (hasDeposition_ && case_.boundaries[boundary].kind == BoundaryKind::Wall) {
     columns.push_back({"deposition", unit("kg/s"), "of particles on the wall, mean of the step"});
     columns.push_back({"mean_deposition", "kg/m^2/s", "the same over the wall's area"});
@@ -289,6 +291,7 @@ void FlowTables::historyRow(const Moment& moment, const Source& source) {
     row.insert(row.end(), {of.area, of.massFlow, of.enthalpyFlow, of.heatFlow});
     for (const Vector3* force : {&of.pressureForce, &of.viscousForce})
       row.insert(row.end(), force->begin(), force->begin() + context_->mesh.dimension);
+    if (case_.swirls) row.push_back(of.torque);
     if (source.deposition && case_.boundaries[b].kind == BoundaryKind::Wall)
       row.insert(row.end(), {deposits[b].rate, deposits[b].meanFlux(), deposits[b].largestFlux, deposits[b].mass});
     writers_[table++].row(row);
@@ -328,7 +331,7 @@ void FlowTables::outputRows(const Moment& moment, const Source& source) {
       rows.insert(rows.end(), {static_cast<double>(moment.step), moment.time});
       rows.insert(rows.end(), face.place.begin(), face.place.begin() + axes);
       rows.push_back(face.area);
-      rows.insert(rows.end(), face.friction.begin(), face.friction.begin() + axes);
+      rows.insert(rows.end(), face.friction.begin(), face.friction.begin() + axes + (case_.swirls ? 1 : 0));
       rows.insert(rows.end(), {face.yPlus, face.heatFlux});
     }
     writers_[table++].row(rows);

@@ -102,6 +102,7 @@ void TurbulenceOperator::setStart(State& state, const FreeStream& start, std::sp
   const bool isSheared = fields.empty() && model_->knowsEnergy();
   if (isSheared) {
     context_.halo.update(state.velocity, context_.mesh.dimension);
+    if (state.swirls) context_.halo.update(state.swirl, 1);
     velocityGradient_.setBoundary(state.velocity);
     velocityGradient_.compute(state.velocity);
     findShear(state);
