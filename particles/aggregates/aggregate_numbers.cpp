@@ -59,6 +59,8 @@ void describeAggregates(const std::vector<const SphereAggregate*>& all, const Ag
                            fit.dimensionError,
                            fit.prefactor,
                            fit.prefactorError,
+                           fit.dimensionOverRadius,
+                           fit.prefactorOverRadius,
                            static_cast<double>(law.count()),
                            population.tries,
                            population.merged};
@@ -90,6 +92,8 @@ const std::vector<Quantity>& aggregateQuantities() {
       {"fractal_dimension_fit", "1", "standard error of D of the fit of a repeat"},
       {"fractal_prefactor", "1", "k of that law"},
       {"fractal_prefactor_fit", "1", "standard error of k of the fit of a repeat"},
+      {"fractal_dimension_over_radius", "1", "D of the same law by least squares of ln n over ln(R_g/a)"},
+      {"fractal_prefactor_over_radius", "1", "k of that line"},
       {"fitted", "1", "particles in the fit"},
       {"lines", "1", "straight lines drawn for a collision"},
       {"merged", "1", "spheres that have become one with a neighbour"}};

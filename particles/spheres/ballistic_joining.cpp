@@ -149,17 +149,21 @@ SphereAggregate joinedAt(std::span<const RigidSphere> firstPlaces, const SphereA
   return joined;
 }
 
+std::optional<SphereContact> BallisticJoining::draw(const SphereAggregate& first, const SphereAggregate& second,
+                                                    RandomStream& random) {
+  const double widest = first.reach() + second.reach();
+  ++tries_;
+  const Rotation byFirst = randomRotation(random), bySecond = randomRotation(random);
+  const double r = widest * std::sqrt(random.uniform()), angle = 2 * constants::pi * random.uniform();
+  turn(first, byFirst, {}, first_);
+  turn(second, bySecond, {r * std::cos(angle), r * std::sin(angle), 0}, second_);
+  return firstContact(first_, second_);
+}
+
 SphereContact BallisticJoining::meet(const SphereAggregate& first, const SphereAggregate& second,
                                      RandomStream& random) {
-  const double widest = first.reach() + second.reach();
-  while (true) {
-    ++tries_;
-    const Rotation byFirst = randomRotation(random), bySecond = randomRotation(random);
-    const double r = widest * std::sqrt(random.uniform()), angle = 2 * constants::pi * random.uniform();
-    turn(first, byFirst, {}, first_);
-    turn(second, bySecond, {r * std::cos(angle), r * std::sin(angle), 0}, second_);
-    if (const auto contact = firstContact(first_, second_)) return *contact;
-  }
+  while (true)
+    if (const auto contact = draw(first, second, random)) return *contact;
 }
 
 SphereAggregate BallisticJoining::join(const SphereAggregate& first, const SphereAggregate& second,

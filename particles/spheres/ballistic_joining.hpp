@@ -42,6 +42,9 @@ class BallisticJoining {
  public:
   // Joined in point contact.
   [[nodiscard]] SphereAggregate join(const SphereAggregate& first, const SphereAggregate& second, RandomStream& random);
+  // One line, and where they touch on it; none where they pass each other.
+  [[nodiscard]] std::optional<SphereContact> draw(const SphereAggregate& first, const SphereAggregate& second,
+                                                  RandomStream& random);
   // Where the second touches the first; how both stand then, the second not yet moved by the height of the contact, is
   // in firstPlaces() and secondPlaces().
   SphereContact meet(const SphereAggregate& first, const SphereAggregate& second, RandomStream& random);

@@ -124,7 +124,7 @@ FractalFit FractalPoints::fit() const {
   constexpr double none = std::numeric_limits<double>::quiet_NaN();
   const double x = x_ / weight_, y = y_ / weight_;
   const double xx = xx_ / weight_ - x * x, xy = xy_ / weight_ - x * y, yy = yy_ / weight_ - y * y;
-  if (count_ < 3 || !(largest_ >= range * smallest_)) return {none, none, none, none};
+  if (count_ < 3 || !(largest_ >= range * smallest_)) return {none, none, none, none, none, none};
   const double slope = xy / xx, offset = y - slope * x;
   const double left = std::max(0.0, yy - slope * xy) / (static_cast<double>(count_) - 2) / xx;
   FractalFit fit;
@@ -134,6 +134,8 @@ FractalFit FractalPoints::fit() const {
   // Of offset/slope: both errors go together by the mean of ln n.
   const double lever = x + offset / slope;
   fit.prefactorError = fit.prefactor / slope * std::sqrt(left * (xx + lever * lever));
+  fit.dimensionOverRadius = xy / yy;
+  fit.prefactorOverRadius = std::exp(x - y * fit.dimensionOverRadius);
   return fit;
 }
 

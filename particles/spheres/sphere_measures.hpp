@@ -36,8 +36,11 @@ namespace lampblack::particles {
 // n = prefactor (R_g/a)^dimension, by least squares of ln(R_g/a), which scatters, over ln n, which does not; points
 // have weights. Standard errors of both from how far the points lie from the line. NaN where there are fewer than three
 // points, or the largest n is less than `range` times the smallest.
+// `...OverRadius`: of the other line through the points, by least squares of ln n over ln(R_g/a). Its dimension is
+// smaller by the square of the correlation of both.
 struct FractalFit {
   double dimension = 0, dimensionError = 0, prefactor = 0, prefactorError = 0;
+  double dimensionOverRadius = 0, prefactorOverRadius = 0;
 };
 class FractalPoints {
  public:

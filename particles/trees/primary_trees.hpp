@@ -62,6 +62,10 @@ class PrimaryTrees {
     units[0] = volume / material_->volume(units);
     return make(units);
   }
+  // Whether a line drawn for both has them touch; by laws of collision alone they always do.
+  [[nodiscard]] bool meet(const Tree& p, const Tree& q, RandomStream& random) const {
+    return size_ != CollisionSize::lines || spheres_->hit(p.head(), q.head(), random);
+  }
   // In point contact at a primary of each, drawn uniformly (eq. 35); of spheres in space where they touch. Those of the
   // smaller tree move.
   [[nodiscard]] Tree coagulated(Tree&& p, Tree&& q, RandomStream& random) const {

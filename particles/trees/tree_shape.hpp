@@ -26,8 +26,9 @@ inline constexpr double fusedRatio = 1 / (fusedLevel * (1 - touching) + touching
 
 // What diameter the number of primaries is raised from in the diameter of collision (eq. 17): their mean (eq. 18), or
 // 6 V/S of the aggregate, by which a sphere that has sintered is a sphere (Lavvas, Sander, Kraft, Imanaka 2011). Or, of
-// spheres in space, the diameter of the sphere with their mean shadow along three lines at right angles.
-enum class CollisionSize { primaries, volumeToSurface, shadow };
+// spheres in space, the diameter of the sphere with their mean shadow along three lines at right angles; or that of
+// their bounding sphere, where only those that touch on a line collide.
+enum class CollisionSize { primaries, volumeToSurface, shadow, lines };
 
 // Volumes of trees are normal numbers by far, and the root is asked for all the time.
 [[nodiscard, gnu::always_inline]] inline double treeDiameter(double volume) {

@@ -41,6 +41,12 @@ void TreeSpheres::store(const SphereAggregate& from, TreeHead& tree) {
   for (std::uint32_t k = 1; k < tree.count; ++k) necksOf(&tree)[k - 1] = {0, 0, from.spheres()[k].parent, k, 0, k};
 }
 
+bool TreeSpheres::hit(const TreeHead& first, const TreeHead& second, RandomStream& random) {
+  load(first, aggregate_);
+  load(second, second_);
+  return joining_.draw(aggregate_, second_, random).has_value();
+}
+
 void TreeSpheres::join(TreeHead& tree, const TreeHead& second, RandomStream& random) {
   load(tree, aggregate_);
   load(second, second_);
@@ -220,6 +226,8 @@ void TreeSpheres::measure(TreeHead& tree) {
     tree.collision = tree.diameters;
   else if (size_ == CollisionSize::shadow)
     tree.collision = shadowDiameter(shadowAlongAxes(aggregate_));
+  else if (size_ == CollisionSize::lines)
+    tree.collision = 2 * aggregate_.reach();
   else
     tree.collision = collisionOfSurface(tree, 1 / material_.fractalDimension, size_);
 }

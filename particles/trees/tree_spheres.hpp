@@ -30,6 +30,8 @@ class TreeSpheres {
   void start(TreeHead& tree) const;
   // The second tree comes on a straight line; the first has room for its primaries.
   void join(TreeHead& tree, const TreeHead& second, RandomStream& random);
+  // Whether they touch on one line, drawn through the disc of both bounding spheres.
+  [[nodiscard]] bool hit(const TreeHead& first, const TreeHead& second, RandomStream& random);
   // Primaries have other units than their spheres have volume: what has come or gone does so at the free surface of
   // each. Volume that moves through necks takes units along, and what is swallowed merges. Primaries without units have
   // no size, and their spheres stay for who takes them away.

@@ -76,6 +76,9 @@ TEST(AggregatesCase, RefusesWhatHasNoMeaning) {
   EXPECT_THAT(refusedAggregates(build + "gas: {file: a.csv, growth: 1 nm/s}\ntime: {end: 1 s}"),
               HasSubstr("'gas.file' says this"));
   EXPECT_THAT(refusedAggregates("build: {by: single_spheres, doublings: 3}"), HasSubstr("doublings"));
+  EXPECT_THAT(refusedAggregates(build + inHotGas), HasSubstr("nothing happens in it"));
+  EXPECT_THAT(refusedAggregates("build: {by: collisions, number: 1e16 1/m^3, collision_size: lines}\n" + inHotGas),
+              HasSubstr("'kernel: free_molecular' alone"));
 }
 
 TEST(AggregatesCase, AGasFromATable) {

@@ -69,12 +69,15 @@ DeckKeys<AggregatesCase> buildKeys() {
   keys.number("van_der_waals", kernel(&CollisionKernelOptions::enhancement),
               rules().byDefault("1").above(0).onlyWith("build.by", inGas),
               "Enhancement of collisions in the free-molecular regime.");
-  keys.choice("collision_size", ofPopulation(&TreeOptions::size),
-              {{"shadow", CollisionSize::shadow}, {"fractal", CollisionSize::primaries}},
-              rules().byDefault("shadow").onlyWith("build.by", inGas),
-              "Diameter of collision. shadow: of the sphere with the mean projected area; fractal: mean diameter of "
-              "the spheres' volumes times n^(1/D), D the key fractal_dimension, n = S^3/(36 pi V^2) of so many equal "
-              "spheres in point contact.");
+  keys.choice(
+      "collision_size", ofPopulation(&TreeOptions::size),
+      {{"shadow", CollisionSize::shadow}, {"fractal", CollisionSize::primaries}, {"lines", CollisionSize::lines}},
+      rules().byDefault("shadow").onlyWith("build.by", inGas),
+      "Diameter of collision. shadow: of the sphere with the mean projected area; fractal: mean diameter of "
+      "the spheres' volumes times n^(1/D), D the key fractal_dimension, n = S^3/(36 pi V^2) of so many equal "
+      "spheres in point contact; lines: of the bounding sphere, and only pairs that touch on the straight line "
+      "that is drawn for them collide, the rate of free molecules without an assumption on their size; with "
+      "'kernel: free_molecular'.");
   keys.number("fractal_dimension",
               rules()
                   .byDefault("1.8")
@@ -172,6 +175,8 @@ void readPopulation(const Deck& deck, AggregatesCase& made) {
   TreeOptions& options = made.population;
   if (options.size == CollisionSize::primaries)
     options.material.fractalDimension = deck.number("build.fractal_dimension");
+  if (options.size == CollisionSize::lines && options.kernel.type != CollisionKernelType::freeMolecular)
+    throw deck.error("build.collision_size", "particles fly on lines with 'kernel: free_molecular' alone");
   if (!deck.has("gas")) throw deck.error("build.by", "collisions take place in a gas; give the section 'gas'");
   if (!deck.has("time")) throw deck.error("build.by", "collisions take time; give the section 'time'");
 }
@@ -227,6 +232,11 @@ AggregatesCase readAggregatesCase(const Deck& deck) {
   if (!sinters) law = {};
   const bool hasBirths = std::ranges::any_of(made.gas.births, [](double rate) { return rate > 0; });
   if (hasBirths && !collide) throw deck.error("gas", "particles are born only where build.by is 'collisions'");
+  const bool grows = std::ranges::any_of(made.gas.growth, [](double rate) { return rate > 0; });
+  if (hasGas && !collide && !law.active() && !grows)
+    throw deck.error("gas",
+                     "nothing happens in it to what is built: give 'sintering' or 'gas.growth', or leave 'gas' and "
+                     "'time' out");
   if (hasBirths != deck.has("gas.birth_diameter"))
     throw deck.error("gas", "'births' and 'birth_diameter' belong together");
   if (hasBirths) made.birthDiameter = deck.quantity("gas.birth_diameter");

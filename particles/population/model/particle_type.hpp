@@ -45,6 +45,9 @@ concept ParticleType = CoagulatingType<Type> && requires(const Type type, const 
 // A type of which not every collision joins two particles has a member sticking(p, q), from 0 to 1, a factor of the
 // kernel.
 
+// A type whose pairs may pass each other where the kernel has them collide has meet(p, q, RandomStream&), which draws
+// whether they do; methods of equal weights ask for it.
+
 // Two particles as one. A type whose particles join at a place that is drawn has coagulated(Particle&&, Particle&&,
 // RandomStream&).
 template <class Type>

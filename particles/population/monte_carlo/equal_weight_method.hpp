@@ -54,6 +54,12 @@ class EqualWeightMethod {
     if (!sample_.store().drawPair(random, i, j)) return false;
     sample_.taken(i);
     sample_.taken(j);
+    if constexpr (requires { type_.meet(i.particle, j.particle, random); })
+      if (!type_.meet(i.particle, j.particle, random)) {
+        sample_.put(i);
+        sample_.put(j);
+        return false;
+      }
     sample_.put(rates().entry(joined(type_, i.particle, j.particle, random)));
     ++counters_.coagulations;
     if (rates().tunable() && --retuneAfter_ == 0) retune();

@@ -39,6 +39,25 @@ TEST(BallisticJoining, RotationsAreUniform) {
   for (std::size_t m = 0; m < exact.size(); ++m) EXPECT_LT(std::abs(summarise(moments[m]).z(exact[m])), zLimit) << m;
 }
 
+// A sphere and two that touch, all of radius 1: as large as the union of two discs of radius 2, whose distance is twice
+// the sine of the pair's angle to the line, over the disc of radius 3 in which lines are drawn.
+TEST(BallisticJoining, LinesHitAsOftenAsTheyMay) {
+  RandomStream random(6, 0, 0);
+  BallisticJoining joining;
+  const SphereAggregate one(1), two = joining.join(one, one, random);
+  constexpr int angles = 1000, draws = 20000;
+  double area = 0;
+  for (int k = 0; k < angles; ++k) {
+    const double cosine = (k + 0.5) / angles, half = 0.5 * std::sqrt(1 - cosine * cosine);  // of the discs' radius
+    area += 4 * (2 * constants::pi - 2 * std::acos(half) + 2 * half * std::sqrt(1 - half * half)) / angles;
+  }
+  std::vector<double> hits;
+  for (int k = 0; k < draws; ++k) hits.push_back(joining.draw(two, one, random) ? 1 : 0);
+  EXPECT_LT(std::abs(summarise(hits).z(area / (9 * constants::pi))), zLimit);
+  EXPECT_EQ(joining.tries(), draws + 1U);
+  EXPECT_TRUE(joining.draw(one, one, random));
+}
+
 // Two spheres touch in a direction of which the square of the sine is uniform: uniform impact points.
 TEST(BallisticJoining, ImpactPointsAreUniform) {
   RandomStream random(4, 0, 0);

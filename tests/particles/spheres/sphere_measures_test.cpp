@@ -100,6 +100,8 @@ TEST(SphereMeasures, FractalLawOfPoints) {
   EXPECT_NEAR(exact.fit().dimension, 1.8, 1e-12);
   EXPECT_NEAR(exact.fit().prefactor, 1.3, 1e-11);
   EXPECT_NEAR(exact.fit().dimensionError, 0, 1e-6);
+  EXPECT_NEAR(exact.fit().dimensionOverRadius, 1.8, 1e-12);
+  EXPECT_NEAR(exact.fit().prefactorOverRadius, 1.3, 1e-11);
   EXPECT_TRUE(std::isnan(FractalPoints().fit().dimension));
   FractalPoints narrow;
   for (const double n : {20.0, 30.0, 79.0}) narrow.add(n, n);
@@ -114,6 +116,9 @@ TEST(SphereMeasures, FractalLawOfPoints) {
   EXPECT_NEAR(points.fit().dimensionError, std::sqrt(1.0 / 3) / 4, 1e-12);
   EXPECT_NEAR(points.fit().prefactor, std::exp(1.0 / 6), 1e-12);
   EXPECT_NEAR(points.fit().prefactorError, std::exp(1.0 / 6) / 2 * std::sqrt(2.0 / 9 + 25.0 / 108), 1e-12);
+  // The other line, 1 + 6/13 (ln(R_g/a) - 5/3) through the same middle.
+  EXPECT_NEAR(points.fit().dimensionOverRadius, 6.0 / 13, 1e-12);
+  EXPECT_NEAR(points.fit().prefactorOverRadius, std::exp(3.0 / 13), 1e-12);
 }
 
 }  // namespace

@@ -87,6 +87,26 @@ TEST(GivenTrees, SinteredAtOnceItCollidesAsSpheresDo) {
   expectSameNumbers(Sphere(2000), options, 2.5e-2, 0.05);
 }
 
+// Beside the number of a simulation that moves every particle (Goudeli et al. 2015): 0.1303 of the first at 7.07 times
+// the time of the first collisions; pairs of bounding spheres that pass each other stay as they are.
+TEST(GivenTrees, OnLinesTheyCollideAsFreeMolecules) {
+  TreeOptions options = givenOptions(0);
+  options.size = CollisionSize::lines;
+  options.particles = 256;
+  std::vector<double> numbers;
+  for (std::uint64_t repeat = 0; repeat < 4; ++repeat) {
+    options.owner = repeat;
+    TreePopulation population(options);
+    fillWithSpheres(population, options);
+    const double volume = population.totals().volume;
+    advanceInHotGas(population, 7.07 / (3.153e-15 * someNumber));
+    numbers.push_back(population.totals().number / someNumber);
+    EXPECT_NEAR(population.totals().volume, volume, 1e-10 * volume);
+    EXPECT_GT(population.counters().fictitious, population.counters().coagulations);
+  }
+  EXPECT_NEAR(summarise(numbers).mean, 0.1303, 0.2 * 0.1303);
+}
+
 TEST(GivenTrees, ConserveVolumeAndKnowTheirPlaces) {
   const TreeOptions options = givenOptions(3);
   TreePopulation population(options);
