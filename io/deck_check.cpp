@@ -152,7 +152,8 @@ class Checker {
       return;
     }
     if (!empty && node->kind != DeckNode::Kind::map)
-      return addWrongKind(schema.child("[]") == nullptr ? "a map of keys" : "a map of keys or a list of such maps",
+      return addWrongKind((schema.child("[]") == nullptr ? "a map of keys" : "a map of keys or a list of such maps") +
+                              meantChoice(schema, *node),
                           *node, path);
     for (const SchemaNode& child : schema.children) {
       if (child.name == "[]") continue;
@@ -166,6 +167,15 @@ class Checker {
           read(child, &entry, joinedPath(path, entry.name), here);
       }
     }
+  }
+
+  // Where a word stands in place of a section that has the choice of it.
+  [[nodiscard]] static std::string meantChoice(const SchemaNode& section, const DeckNode& node) {
+    if (node.kind != DeckNode::Kind::scalar) return "";
+    for (const SchemaNode& child : section.children)
+      if (child.key != nullptr && std::ranges::find(child.key->choices, node.text) != child.key->choices.end())
+        return fmt::format(", such as {{{}: {}}}", child.name, node.text);
+    return "";
   }
 
   void addWrongKind(const std::string& expected, const DeckNode& node, const std::string& path) {

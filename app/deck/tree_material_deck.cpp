@@ -177,6 +177,8 @@ SinteringLaw readSintering(const Deck& deck, SinteringLaw law) {
       throw deck.error(s + "size", "parts of an aggregate sinter by 'volume_to_surface'");
   }
   requirePrefactor(deck, "particles.sintering", law);
+  if (const std::string key = s + "tolerance"; !law.active() && deck.isGiven(key))
+    throw deck.error(key, "nothing sinters without 'mechanism'; give one, or leave this out");
   return law;
 }
 

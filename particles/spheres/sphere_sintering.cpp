@@ -179,7 +179,7 @@ void SphereSintering::advance(SphereAggregate& aggregate, double temperature, do
       for (std::size_t i = 0; i < n; ++i) radii_[i] = aggregate.spheres()[i].radius;
       step = 0.5 * h;
       if (!(step > 1e-15 * time) || !(step > 0))
-        throw NumericsError("sintering of an aggregate: its steps vanish; a larger 'sintering.tolerance' may help");
+        throw NumericsError("sintering of an aggregate: its steps vanish; a larger 'sintering.step_error' may help");
       continue;
     }
     ++steps_;

@@ -170,6 +170,7 @@ TEST(MoleculesDeck, MistakesAreTold) {
   EXPECT_THAT(message("  oh_efficiency: 0.1\n"), testing::HasSubstr("leave it out"));
   EXPECT_THAT(message("  surface: {bounded: true}\n"), testing::HasSubstr("has no meaning"));
   EXPECT_THAT(message("  molecules: {processes: [G7R]}\n"), testing::HasSubstr("G6R_AC"));
+  EXPECT_THAT(message("  sintering: {tolerance: 1e-2}\n"), testing::HasSubstr("nothing sinters without 'mechanism'"));
   for (const char* ofPrimaries :
        {"  fractal_dimension: 1.7\n", "  sintering: {mechanism: constant, prefactor: 1e-3}\n"})
     EXPECT_THAT(message(std::string("  molecules: {shape: spheres}\n") + ofPrimaries),

@@ -144,8 +144,10 @@ TEST(DeckConditions, ASectionMayBeAMapOrAListOfMaps) {
   EXPECT_EQ(deckOf("{}").choice("start.shape"), "none");
   EXPECT_EQ(deckOf("start:\n").choice("start.shape"), "none");
   EXPECT_EQ(deckOf("start: []").size("start"), 0U);
-  EXPECT_THAT(problem("start: wide"), HasSubstr("start: expected a map of keys or a list of such maps, found 'wide'"));
-  EXPECT_THAT(problem("start: [wide]"), HasSubstr("start[0]: expected a map of keys, found 'wide'"));
+  EXPECT_THAT(problem("start: wide"),
+              HasSubstr("start: expected a map of keys or a list of such maps, such as {shape: wide}, found"));
+  EXPECT_THAT(problem("start: [wide]"),
+              HasSubstr("start[0]: expected a map of keys, such as {shape: wide}, found 'wide'"));
   EXPECT_THAT(problem("start: {shpe: wide}"), HasSubstr("did you mean 'shape'? Known here: shape, size, width\n"));
   EXPECT_THAT(problem("start: [{shape: none}, {shpe: wide}]"), HasSubstr("start[1].shpe: unknown key"));
   EXPECT_THAT(problem("start:\n- shape: wide\n- {shape: equal, width: 2}\n"),

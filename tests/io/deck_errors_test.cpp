@@ -162,6 +162,8 @@ TEST(DeckErrors, AValueOfAnotherTypeSaysWhatWasExpected) {
   EXPECT_THAT(messageOf(test::sampleText + "output: {fields: temperature}\n"), HasSubstr("expected a list"));
   EXPECT_THAT(messageOf(sampleWith("  fuel:\n    type: inlet\n", "  fuel: 3\n  b:\n    type: inlet\n")),
               HasSubstr("boundaries.fuel: expected a map of keys, found '3'"));
+  EXPECT_THAT(messageOf(sampleWith("  fuel:\n    type: inlet\n", "  fuel: inlet\n  b:\n    type: inlet\n")),
+              HasSubstr("boundaries.fuel: expected a map of keys, such as {type: inlet}, found 'inlet'"));
   EXPECT_THAT(messageOf(sampleWith("{to: 2 mm, cells: 10}", "7")),
               HasSubstr("mesh.z[0]: expected a map of keys, found '7'"));
 }
