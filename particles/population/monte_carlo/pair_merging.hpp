@@ -122,7 +122,8 @@ void PairMerging<Type>::mergeOnce(std::size_t excess, double most, PairPopulatio
   for (; allowed == 0; most *= 2)
     for (std::size_t k = 0; k + 1 < n; ++k) {
       const double weight = weights_[k] + weights_[k + 1], share = weights_[k] / weight;
-      const auto ratio = static_cast<float>(logarithms_[k + 1] - logarithms_[k]);
+      // Of those that are nearly alike either may come first.
+      const auto ratio = static_cast<float>(static_cast<std::int32_t>(logarithms_[k + 1] - logarithms_[k]));
       const float loss = static_cast<float>(share * (1 - share)) * ratio * ratio;
       losses_[k] = weight > most ? tooHeavy : std::bit_cast<std::uint32_t>(loss);
       allowed += weight > most ? 0U : 1U;

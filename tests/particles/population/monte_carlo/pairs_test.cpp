@@ -187,6 +187,17 @@ TEST(PairMerging, MergesTheNearestAndKeepsNumberAndMass) {
   EXPECT_NEAR(population.volume(0), mass / number, 1e-13);
 }
 
+// Of two that differ by less than the order by size tells (three parts in 1e5) the larger one may stand first.
+TEST(PairMerging, MergesThoseThatAreNearlyAlikeInEitherOrder) {
+  const auto kernel = *colliding(constant, 1).coagulation;
+  for (const double first : {1.0, 1.000002}) {
+    auto population = populationWith({{first, 1}, {2.000002 - first, 1}, {2, 1}}, kernel);
+    EXPECT_EQ(PairMerging<Sphere>().mergeDownTo(2, 100, population), 1u);
+    EXPECT_NEAR(population.volume(0), 1.000001, 1e-14);
+    EXPECT_EQ(population.volume(1), 2);
+  }
+}
+
 // Pairs far from one another, of which each loses four times as much as the next or all the same: as many are merged as
 // are too many, those first that lose least.
 TEST(PairMerging, MergesAsManyAsAreTooManyWhateverTheyLose) {
