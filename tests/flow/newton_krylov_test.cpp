@@ -184,11 +184,18 @@ TEST(NewtonSteps, LeaveTheSquareWhereEddiesStir) {
   const State before = state;
   const std::vector<double> rates = residual.rates().carried, mass = residual.rates().mass;
   newton.advance(state, std::vector<double>(at(b.mesh.owned), inertia), 1e-8);
-  for (std::size_t i = 0; i < rates.size(); ++i) {
-    const double density = before.density[i / 2],
-                 expected = (rates[i] - before.carried[i] / density * mass[i / 2]) / inertia;
-    EXPECT_NEAR((state.carried[i] - before.carried[i]) / density, expected,
-                1e-3 * std::abs(expected) + 1e-15 * before.carried[i] / density);
+  // The linear system leaves 1e-8 of all that was left, which in a cell with little left may be more than that.
+  for (std::size_t s = 0; s < 2; ++s) {
+    const auto expected = [&](int c) {
+      const std::size_t i = 2 * at(c) + s;
+      return (rates[i] - before.carried[i] / before.density[at(c)] * mass[at(c)]) / inertia;
+    };
+    const double most = largest(b.mesh, [&](int c) { return std::abs(expected(c)); });
+    EXPECT_GT(most, 0.0);
+    for (int c = 0; c < b.mesh.owned; ++c) {
+      const std::size_t i = 2 * at(c) + s;
+      EXPECT_NEAR((state.carried[i] - before.carried[i]) / before.density[at(c)], expected(c), 1e-3 * most);
+    }
   }
 }
 
