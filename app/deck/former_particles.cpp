@@ -112,7 +112,8 @@ Settings settle(const DeckSource& source, DeckNode& root, bool besideModel, std:
     return said;
   }
   if (trees != nullptr) {
-    if (trees->kind != DeckNode::Kind::map) return said;  // a mistake that the check of the keys tells
+    if (trees->kind == DeckNode::Kind::scalar || trees->kind == DeckNode::Kind::list)
+      return said;  // a mistake that the check of the keys tells
     // Trees of soot needed a section of soot, and had no such keys: here the key `description` has been forgotten.
     const bool isOfSoot = textOf(trees, "material", "") == "soot" || trees->child("pah") != nullptr;
     if (isOfSoot && soot == nullptr && stochastic == nullptr) return said;

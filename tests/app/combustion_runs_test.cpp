@@ -12,7 +12,7 @@ Deck mixingDeck(const std::string& combustion, std::vector<std::string> more = {
   more.emplace_back("checkpoint.steps=3");
   return test::flowDeck("hydrogen_h2o2_10.yaml",
                         fmt::format(R"(
-turbulence: {{model: sst, walls: automatic, eddy_viscosity_ratio: 20, energy: 30 m^2/s^2, wall_distance: infinite}}
+turbulence: {{model: sst, walls: automatic, eddy_viscosity_ratio: 20, energy: 200 m^2/s^2, wall_distance: infinite}}
 combustion: {{{}}}
 mesh: {{geometry: planar, x: [{{to: 8 mm, cells: 8}}], y: [{{to: 8 mm, cells: 6}}]}}
 boundaries:

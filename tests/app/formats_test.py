@@ -118,7 +118,8 @@ def main(executable: str, *mpiexec: str) -> int:
         runs = {"flow": (running.small_case(folder), *running.settings(
             "radiation.model=optically_thin", "boundaries.fuel.swirl_velocity=1 m/s", "time.sweeps=2", "time.tolerance=0.1", "time.steady={}",
             "output.probes={p: {at: [1 mm, 5 mm]}}", "output.lines={l: {from: [0 mm, 1 mm], to: [0 mm, 7 mm], points: 3}}",
-            "output.boundaries=[fuel, fuel_flange]", "output.wall_distance=true", "output.mixture_fraction={fuel: fuel, oxidizer: oxidiser}"))}
+            "output.boundaries=[fuel, fuel_flange]", "output.wall_distance=true", "output.mixture_fraction={fuel: fuel, oxidizer: oxidiser}",
+            "chemistry.reference_map={fuel: fuel, oxidizer: oxidiser}"))}
         from flow_mesh_run_test import DECKS, HEAD, gmsh_text
 
         (folder / "mesh.msh").write_text(gmsh_text(5, 3, lambda i, j: i > 2), encoding="utf-8")
