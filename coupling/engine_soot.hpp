@@ -49,7 +49,7 @@ class EngineSoot final : public EngineCarried {
   ClosedReactor reactor_;
   StiffIntegrator integrator_;
   GasState start_;
-  std::vector<double> rows_, densities_, concentrations_, enthalpy_, slope_;
+  std::vector<double> rows_, densities_, enthalpy_, slope_;
 };
 
 }  // namespace lampblack::coupling

@@ -76,12 +76,23 @@ class Checker {
     return {};
   }
 
-  // Of a section that this kind of deck has not: where a key in it stands here ('end' of 'time' is 'gas.end').
+  // Of a section that this kind of deck has not: the one section here that has all of its keys.
   std::string whereChildrenStand(const DeckNode& section) const {
-    for (const DeckNode& child : section.children)
-      for (const DeckKey& key : schema_.keys())
-        if (key.path.ends_with("." + child.name)) return fmt::format("; did you mean '{}'?", key.path);
-    return {};
+    std::string found;
+    for (const DeckKey& first : schema_.keys()) {
+      const std::string end = "." + section.children.front().name;
+      if (!first.path.ends_with(end)) continue;
+      const std::string candidate = first.path.substr(0, first.path.size() - end.size());
+      const bool hasAll = std::ranges::all_of(section.children, [&](const DeckNode& child) {
+        return std::ranges::any_of(schema_.keys(), [&](const DeckKey& key) {
+          return key.path == fmt::format("{}.{}", candidate, child.name);
+        });
+      });
+      if (!hasAll || candidate.find_first_of("*[") != std::string::npos) continue;
+      if (!found.empty()) return {};
+      found = candidate;
+    }
+    return found.empty() ? "" : fmt::format("; did you mean '{}'?", found);
   }
 
   InputError unknown(const SchemaNode& schema, const DeckNode& node, const std::string& path) const {
@@ -104,10 +115,10 @@ class Checker {
         }
       }
     }
-    if (hint.empty() && node.kind == DeckNode::Kind::map) hint = whereChildrenStand(node);
     if (hint.empty())
       if (const std::string similar = nameOfSameWords(node.name, here); !similar.empty())
         hint = fmt::format("; did you mean '{}'?", similar);
+    if (hint.empty() && !node.children.empty() && !node.children.front().name.empty()) hint = whereChildrenStand(node);
     return deckError(
         source_, node.nameAt, path,
         fmt::format("unknown key '{}'{} Known here: {}", node.name, hint.empty() ? "." : hint, fmt::join(here, ", ")));

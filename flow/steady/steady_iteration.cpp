@@ -254,9 +254,17 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
 SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
   Outcome outcome;
   outcome.courant = courant_;
-  const double last = measure_;
+  double last = measure_;
   NewtonKrylov::Result step;
   try {
+    if (!state.eddyViscosity.empty()) {
+      // Viscosities of the molecules have followed the last iteration: what is left is that of what they are now, as it
+      // is of the states beside this one.
+      for (Operator* op : operators_) op->setDiffusivities(state);
+      state.updateHalo(context_.halo);
+      residual_.evaluate(state);
+      last = measure(state);
+    }
     setInertia(state);
     step = newton_->advance(state, inertia_, newtonReduction);
     keepMass(state, massOf(*before_));

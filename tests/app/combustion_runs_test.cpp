@@ -130,6 +130,9 @@ TEST(CombustionCase, RefusesWhatCannotBe) {
       {"model: pasr, laminar_below: -1", {}, {"combustion.laminar_below"}},
       {"model: pasr, soot_factor: kappa", {}, {"combustion.soot_factor", "the particles of a model"}},
       {"model: edc, soot_factor: kappa", {}, {"combustion.soot_factor"}},
+      {"model: edc",
+       {"chemistry.reference_map={fuel: fuel, oxidizer: air}"},
+       {"chemistry.reference_map", "fine structures of 'edc'"}},
   };
   for (const Wrong& deck : decks) {
     SCOPED_TRACE(deck.combustion);

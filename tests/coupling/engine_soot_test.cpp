@@ -43,7 +43,7 @@ class EngineWithModel : public ::testing::TestWithParam<std::string> {
   std::size_t n = ethylene().numSpecies();
 };
 
-// One particle is a closed reactor, of second order in the step, within what the heat capacity of the soot does.
+// One particle comes to a closed reactor as the step falls.
 TEST_P(EngineWithModel, OneParticleOfAnEngineIsAClosedReactor) {
   const GasState start = gasOf(ethylene(), 1900, "C2H2: 0.06, A1: 0.01, N2: 0.93");
   constexpr double end = 1e-3;

@@ -40,7 +40,9 @@ TEST(DeckErrors, AKeyThatIsRightElsewhereSaysWhere) {
 TEST(DeckErrors, WordsOfAKeyOrKeysOfASectionTellWhatWasMeant) {
   EXPECT_THAT(messageOf(sampleWith("    velocity: 20", "    inlet_velocity: 20")),
               HasSubstr("did you mean 'velocity'?"));
-  EXPECT_THAT(messageOf(test::sampleText + "schedule: {end: 40 ms}\n"), HasSubstr("did you mean 'time.end'?"));
+  EXPECT_THAT(messageOf(test::sampleText + "schedule: {end: 40 ms}\n"), HasSubstr("did you mean 'time'?"));
+  EXPECT_THAT(messageOf(test::sampleText + "mesh_size: {end: 40 ms}\n"), HasSubstr("did you mean 'mesh'?"));
+  EXPECT_THAT(messageOf(test::sampleText + "solver: {type: gmres}\n"), HasSubstr("unknown key 'solver'. Known here"));
   EXPECT_EQ(nameOfSameWords("connecting_rod", {"rod", "rods"}), "rod");
   EXPECT_EQ(nameOfSameWords("viscosity", {"eddy_viscosity_ratio", "ratio"}), "eddy_viscosity_ratio");
   EXPECT_EQ(nameOfSameWords("maximum_step", {"step", "first", "maximum"}), "");

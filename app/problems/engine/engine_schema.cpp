@@ -1,4 +1,4 @@
-#include <array>
+#include <algorithm>
 
 #include "app/deck/gas_input.hpp"
 #include "app/deck/particles_deck.hpp"

@@ -35,12 +35,12 @@ DeckKeys<ReferenceMap::Options> mapKeys() {
                "error. Absent: each cell has its own.");
   addStreamKeys(keys, "");
   keys.number(
-      "mixture_fraction", &Options::mixtureWidth, rules().above(0).atMost(1),
+      "mixture_fraction", &Options::mixtureWidth, rules().atLeast(1e-9).atMost(1),
       "Width of the bins of the mixture fraction (Bilger's, by the two streams) in which gas is nearly the same.");
-  keys.quantity("temperature", units::temperature, &Options::temperatureWidth, rules().above(0),
+  keys.quantity("temperature", units::temperature, &Options::temperatureWidth, rules().atLeast(1e-9),
                 "Width of the bins of the temperature.");
   keys.number(
-      "log_density", &Options::densityWidth, rules().above(0),
+      "log_density", &Options::densityWidth, rules().atLeast(1e-9),
       "Width of the bins of the logarithm of the density: about the relative difference of densities in a bin.");
   keys.number(
       "checked", &Options::checked, rules().atLeast(0).atMost(1),

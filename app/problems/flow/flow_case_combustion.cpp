@@ -87,6 +87,10 @@ void readCombustion(const Deck& deck, FlowCase& flowCase) {
                                  "another 'turbulence.model', or 'combustion.dissipation: shear'",
                                  model, turbulence->name()));
   if (model == "edc") {
+    if (deck.has("chemistry.reference_map"))
+      throw deck.error("chemistry.reference_map",
+                       "fine structures of 'edc' react for times of their own, which cells of nearly the same gas do "
+                       "not share; leave it out, or take 'combustion.model: pasr'");
     options.model = Model::EddyDissipation;
     options.fine = fineStructures(deck.choice("combustion.version"));
   } else {

@@ -187,7 +187,7 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
     turbulence.start.energy = deck.optionalQuantity("turbulence.energy").value_or(most);
     if (!(turbulence.start.energy > 0.0))
       throw deck.error("turbulence",
-                       fmt::format("'{}' needs the key 'energy', as no inlet tells how large k is", name));
+                       fmt::format("'{}' needs the key 'energy', as no inlet has a 'turbulence_intensity'", name));
   }
   for (const BoundaryCondition& boundary : flowCase.boundaries) {
     const auto stream = streams.find(boundary.name);

@@ -206,7 +206,8 @@ double EngineCylinder::elementError() const {
   const double there = 1e-12 * std::accumulate(now.begin(), now.end(), 0.0);
   double most = 0;
   for (std::size_t e = 0; e < now.size(); ++e)
-    if (now[e] > there) most = std::max(most, std::abs(now[e] - startElements_[e] - brought[e]) / now[e]);
+    if (const double size = std::max(now[e], startElements_[e] + brought[e]); size > there)
+      most = std::max(most, std::abs(now[e] - startElements_[e] - brought[e]) / size);
   return most;
 }
 

@@ -31,6 +31,8 @@ void TurbulenceOperator::findTurning(const State& state) {
   for (std::size_t c = 0; c < turning_.size(); ++c) turning_[c] = state.swirl[c] / m.centre[c][0];
   for (int face = m.interiorFaces; face < m.faces; ++face) {
     const auto b = static_cast<std::size_t>(face - m.interiorFaces);
+    if (context_.boundaryOf(face).kind == BoundaryKind::Inlet)
+      knownTurning_[b] = context_.isSuction(face) ? BoundaryData::Nothing : BoundaryData::Value;
     if (knownTurning_[b] == BoundaryData::Value)
       boundaryTurning_[b] = context_.boundarySwirl(face) / m.faceCentre[face][0];
   }
