@@ -267,6 +267,15 @@ TEST(Turbulence, DilatationOfKEpsilonIsThatOfItsProduction) {
   }
 }
 
+// Where transport takes epsilon below zero, k spreads and decays by nothing, and shear makes epsilon anew.
+TEST(Turbulence, KEpsilonHasNoEddiesWhereEpsilonIsBelowZero) {
+  const TurbulentCell cell{.strain = 100.0, .viscosity = nu, .values = {0.3, -1e-3}};
+  const TurbulentRates rates = ratesOf("k_epsilon", cell);
+  EXPECT_EQ(rates.eddyViscosity, 0.0);
+  EXPECT_EQ(rates.sink[0], 0.0);
+  expectShare(rates.source[1], 1.44 * 0.09 * 0.3 * 1e4);
+}
+
 // k gains nu_t times what buoyancy makes, or loses it; epsilon, of models that carry it, gains C_1 and the share of
 // that.
 TEST(Turbulence, BuoyancyMakesAndTakesEddies) {

@@ -27,9 +27,11 @@ struct KEpsilon {
   [[nodiscard]] static double dissipation(std::span<const double> variables) { return variables[1]; }
 
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
-    const double k = std::max(cell.values[0], 0.0), epsilon = std::max(cell.values[1], 1e-30), S = cell.strain;
+    const double k = std::max(cell.values[0], 0.0), epsilon = std::max(cell.values[1], 0.0), S = cell.strain;
     TurbulentRates rates;
-    const double time = k / epsilon, rate = epsilon / std::max(k, 1e-30);
+    // Where transport has taken epsilon below zero there are no eddies, rather than endless ones, until it is made
+    // anew.
+    const double time = epsilon > 0.0 ? k / epsilon : 0.0, rate = epsilon / std::max(k, 1e-30);
     rates.eddyViscosity = cMu * k * time;
     rates.diffusivity = {cell.viscosity + rates.eddyViscosity / sigmaK,
                          cell.viscosity + rates.eddyViscosity / sigmaEpsilon};
