@@ -136,9 +136,10 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
 TEST(Turbulence, SwirlHasItsShear) {
   Gas& gas = Gas::hydrogen();
   const std::vector<double> air = gas.massFractions("O2: 0.21, N2: 0.79");
-  const double length = 0.007, a = 2.0, b = 3.0;
+  const double length = 0.007, a = 2.0, b = 3.0, ofMantle = 2.0;
   std::vector<Side> sides{side(BoundaryKind::Symmetry, 0, false), side(BoundaryKind::Wall, 0, true),
                           side(BoundaryKind::Wall, 1, false), side(BoundaryKind::Wall, 1, true)};
+  sides[1].condition.swirl = ofMantle;
   const auto axis = uniformAxis(length, 7);
   Box box(Geometry::Axisymmetric, {axis, axis}, sides, gas);
   const auto model = std::make_shared<PointwiseModel<Probe>>();
@@ -160,6 +161,11 @@ TEST(Turbulence, SwirlHasItsShear) {
     turbulence.setStart(state, {ofMolecules, ofMolecules, a});
     turbulence.addRates(state, state.balance);
     turbulence.setDiffusivities(state);
+    for (int face = box.mesh.interiorFaces; A == 0.0 && face < box.mesh.faces; ++face) {
+      if (box.mesh.patch[at(face - box.mesh.interiorFaces)] != 1) continue;
+      const double shear = 1.8e-5 * std::abs(length * F - ofMantle) / box.mesh.distance[at(face)];
+      EXPECT_NEAR(turbulence.atWall(face, state).shear, shear, 1e-12);
+    }
     for (int c = 0; c < box.mesh.owned; ++c) {
       const Vector3& x = box.mesh.centre[at(c)];
       if (std::max(std::abs(x[0] - 0.5 * length), std::abs(x[1] - 0.5 * length)) > 0.3 * length) continue;
