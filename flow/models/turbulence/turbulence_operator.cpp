@@ -6,8 +6,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "flow/discretisation/face_fluxes.hpp"
-
 namespace lampblack::flow {
 namespace {
 
@@ -132,90 +130,6 @@ void TurbulenceOperator::advance(State& state, double, double dt) {
   context_.halo.update(state.eddyViscosity, 1);
 }
 
-// Strain, vorticity and dilatation of the owned cells, of the gradient that has been computed.
-void TurbulenceOperator::findShear(const State& state) {
-  if (state.swirls) findTurning(state);
-  const Mesh& m = context_.mesh;
-  const int d = m.dimension;
-  for (int c = 0; c < m.owned; ++c) {
-    // du_j/dx_i; about an axis the hoop's part stands in the third place.
-    std::array<std::array<double, 3>, 3> slope{}, S{}, W{};
-    for (std::size_t j = 0; j < static_cast<std::size_t>(d); ++j)
-      for (std::size_t i = 0; i < static_cast<std::size_t>(d); ++i)
-        slope[j][i] = velocityGradient_.of(c, static_cast<int>(j))[i];
-    TurbulentCell& cell = cells_[c];
-    cell.dilatation = velocityGradient_.dilatation(c, state.velocity);
-    if (m.axisymmetric()) slope[2][2] = cell.dilatation - slope[0][0] - slope[1][1];
-    if (!turning_.empty()) {
-      const double r = m.centre[c][0], turning = turning_[c];
-      const double* gradient = &turningGradient_[static_cast<std::size_t>(c) * 2];
-      slope[2][0] = turning + r * gradient[0];
-      slope[2][1] = r * gradient[1];
-      slope[0][2] = -turning;
-    }
-    double strains = 0.0, turns = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j) {
-        S[i][j] = 0.5 * (slope[j][i] + slope[i][j]);
-        W[i][j] = 0.5 * (slope[i][j] - slope[j][i]);
-        strains += S[i][j] * S[i][j];
-        turns += W[i][j] * W[i][j];
-      }
-    const double squared = 2.0 * strains - 2.0 / 3.0 * cell.dilatation * cell.dilatation;
-    cell.strain = std::sqrt(std::max(squared, 0.0));
-    cell.vorticity = std::sqrt(2.0 * turns);
-    for (std::size_t i = 0; i < 3; ++i) S[i][i] -= cell.dilatation / 3.0;
-    double cubes = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t k = 0; k < 3; ++k) cubes += S[i][j] * S[j][k] * S[k][i];
-    cell.strainShape = squared > 0.0 ? cubes / (0.5 * squared * std::sqrt(0.5 * squared)) : 0.0;
-    for (std::size_t i = 0; i < 3; ++i) S[i][i] -= cell.dilatation / 6.0;
-    double stretching = 0.0;
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 3; ++j)
-        for (std::size_t k = 0; k < 3; ++k) stretching += W[i][j] * W[j][k] * S[k][i];
-    cell.stretching = std::abs(stretching);
-    strain_[c] = cell.strain;
-  }
-}
-
-// Whether anything of it is another than when the cells were told last, on any rank. A pass of what is carried asks
-// several times of one flow.
-bool TurbulenceOperator::isOtherFlow(const State& state) {
-  const auto follow = [](std::span<const double> now, std::vector<double>& last) {
-    if (std::ranges::equal(now, last)) return 0;
-    last.assign(now.begin(), now.end());
-    return 1;
-  };
-  int others = follow(state.velocity, seen_.velocity) | follow(velocityGradient_.boundary(), seen_.boundary) |
-               follow(state.swirl, seen_.swirl) | follow(state.density, seen_.density) |
-               follow(properties_.viscosity, seen_.viscosity);
-  MPI_Allreduce(MPI_IN_PLACE, &others, 1, MPI_INT, MPI_MAX, context_.mesh.comm);
-  return others != 0;
-}
-
-// What velocities and densities tell of the cells.
-void TurbulenceOperator::findFlow(const State& state) {
-  const Mesh& m = context_.mesh;
-  const auto d = static_cast<std::size_t>(m.dimension);
-  velocityGradient_.setBoundary(state.velocity);
-  if (!isOtherFlow(state)) return;
-  areRatesKnown_ = false;
-  velocityGradient_.compute(state.velocity);
-  gradient_.compute(state.density, boundaryStrain_, 1, densityGradient_, knownDensity_);
-  std::copy_n(state.density.begin(), cells_.size(), density_.begin());
-  for (std::size_t c = 0; c < cells_.size(); ++c) {
-    TurbulentCell& cell = cells_[c];
-    cell.viscosity = properties_.viscosity[c] / state.density[c];
-    if (model_->needsWallDistance()) cell.distance = context_.wallDistance[c];
-    for (std::size_t i = 0; i < d; ++i) cell.densityGradient[i] = densityGradient_[c * d + i] / state.density[c];
-  }
-  if (options_.buoyancy) findBuoyancy(state);
-  findShear(state);
-  if (model_->needsStrainGradient()) addStrainGradient(state);
-}
-
 // What the model's own variables tell of the cells, and its rates.
 void TurbulenceOperator::findRates(const State& state) {
   const auto d = static_cast<std::size_t>(context_.mesh.dimension);
@@ -256,39 +170,6 @@ void TurbulenceOperator::evaluate(const State& state, Tangents tangents) {
   if (model_->usesWallLaw()) applyWallLaw();
 }
 
-// Sinks become what a rate falls by as its own variable rises, where that is more; the rates stay what they are. The
-// wall function of SA goes with the sixth power of the variable: with a sink of that of the square alone long steps
-// swing. Slopes are the derivatives: of two variables that make and destroy each other's all four as they are, of one
-// by itself the sink, without what it makes of itself.
-void TurbulenceOperator::linearise() {
-  constexpr double small = 1e-6;
-  std::ranges::copy(cells_, beside_.begin());
-  std::ranges::fill(slopes_, Slope{});
-  const auto net = [](const TurbulentRates& of, const TurbulentCell& cell, std::size_t v) {
-    return of.source[v] - of.sink[v] * cell.values[v];
-  };
-  for (std::size_t v = 0; v < count_; ++v) {
-    for (std::size_t c = 0; c < cells_.size(); ++c) slopes_[c][v][v] = -rates_[c].sink[v];
-    for (std::size_t c = 0; c < cells_.size(); ++c) beside_[c].values[v] += small * std::abs(cells_[c].values[v]);
-    model_->evaluate(beside_, ratesBeside_);
-    for (std::size_t c = 0; c < cells_.size(); ++c) {
-      const double rise = beside_[c].values[v] - cells_[c].values[v];
-      beside_[c].values[v] = cells_[c].values[v];
-      if (!(cells_[c].values[v] > 0.0)) continue;
-      TurbulentCell moved = cells_[c];
-      moved.values[v] += rise;
-      for (std::size_t w = 0; w < count_; ++w)
-        slopes_[c][w][v] = (net(ratesBeside_[c], moved, w) - net(rates_[c], cells_[c], w)) / rise;
-      const double more = -slopes_[c][v][v] - rates_[c].sink[v];
-      if (more > 0.0) {
-        rates_[c].sink[v] += more;
-        rates_[c].source[v] += more * cells_[c].values[v];
-      }
-      if (count_ == 1) slopes_[c][v][v] = -rates_[c].sink[v];
-    }
-  }
-}
-
 void TurbulenceOperator::add(const State& state, State::Balance& rates) const {
   const std::size_t n = state.scalars.size();
   for (std::size_t c = 0; c < rates_.size(); ++c)
@@ -307,15 +188,6 @@ void TurbulenceOperator::addRatesOfCarried(const State& state, State::Balance& r
   findRates(state);
   if (model_->usesWallLaw()) applyWallLaw();
   add(state, rates);
-}
-
-void TurbulenceOperator::addSlopes(const State& state, const Slopes& slopes) {
-  if (slopes.carried.empty()) return;
-  const std::size_t n = state.scalars.size();
-  for (std::size_t c = 0; c < rates_.size(); ++c)
-    for (std::size_t v = first_; v < first_ + count_; ++v)
-      for (std::size_t w = first_; w < first_ + count_; ++w)
-        slopes.carried[(c * n + v) * n + w] += slopes_[c][w - first_][v - first_];
 }
 
 // Of the owned cells, as evaluated.

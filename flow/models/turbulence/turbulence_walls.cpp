@@ -22,22 +22,6 @@ bool TurbulenceOperator::isSticky(int face) const {
   return context_.boundaryOf(face).isNoSlipWall();
 }
 
-// 1/s, one-sided: along the wall, of the gas beside it.
-double TurbulenceOperator::strainAtWall(int face, const State& state) const {
-  const Mesh& m = context_.mesh;
-  const int d = m.dimension;
-  Vector3 rise{};
-  for (int i = 0; i < d; ++i)
-    rise[i] = state.velocity[d * m.low[face] + i] - velocityGradient_.boundary()[d * (face - m.interiorFaces) + i];
-  const double across = dot(rise, m.normal[face]);
-  double about = 0.0;
-  if (state.swirls) {
-    const double radius = m.faceCentre[face][0];
-    about = radius * state.swirl[m.low[face]] / m.centre[m.low[face]][0] - context_.boundarySwirl(face);
-  }
-  return std::sqrt(std::max(dot(rise, rise) - across * across, 0.0) + about * about) / m.distance[face];
-}
-
 // Cells beside walls for which the law of the wall stands.
 void TurbulenceOperator::findLayers() {
   const Mesh& m = context_.mesh;
