@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <utility>
+
+#include "core/letter_case.hpp"
 
 namespace lampblack {
 
@@ -16,7 +17,7 @@ std::set<std::string> wordsOf(std::string_view name) {
   std::string word;
   for (const char letter : std::string(name) + '_') {
     if (letter != '_' && letter != '-') {
-      word += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+      word += lowerCase(letter);
     } else if (!word.empty()) {
       words.insert(std::exchange(word, {}));
     }
@@ -27,9 +28,7 @@ std::set<std::string> wordsOf(std::string_view name) {
 }  // namespace
 
 std::size_t editDistance(std::string_view a, std::string_view b) {
-  const auto same = [&](std::size_t i, std::size_t j) {
-    return std::tolower(static_cast<unsigned char>(a[i])) == std::tolower(static_cast<unsigned char>(b[j]));
-  };
+  const auto same = [&](std::size_t i, std::size_t j) { return lowerCase(a[i]) == lowerCase(b[j]); };
   std::vector<std::vector<std::size_t>> cost(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
   for (std::size_t i = 0; i <= a.size(); ++i) {
     for (std::size_t j = 0; j <= b.size(); ++j) {

@@ -4,13 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 #include <set>
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/letter_case.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
 #include "io/deck_keys.hpp"
@@ -26,18 +26,13 @@ double sphereVolume(double diameter) {
   return constants::pi / 6 * diameter * diameter * diameter;
 }
 
-std::string lowerCase(std::string text) {
-  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return text;
-}
-
 // A column of a table by one of its names.
 class Columns {
  public:
   explicit Columns(const TextTable& table) : table_(table) {
     for (const std::string& header : table.columns) {
       auto [name, unit] = nameAndUnit(header);
-      names_.push_back(lowerCase(std::move(name)));
+      names_.push_back(lowerCase(name));
       units_.push_back(std::move(unit));
     }
   }

@@ -6,6 +6,7 @@
 #include <cctype>
 
 #include "core/errors.hpp"
+#include "core/letter_case.hpp"
 
 namespace lampblack::chemistry {
 
@@ -29,10 +30,6 @@ std::optional<std::vector<double>> atomsOfFormula(const Mechanism& mechanism, st
     atoms[*element] += digits == at ? 1 : count;
   }
   return atoms;
-}
-
-bool sameInAnyCase(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 bool hasAtoms(const Mechanism& mechanism, std::size_t k, const std::vector<double>& atoms) {

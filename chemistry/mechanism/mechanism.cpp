@@ -2,26 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
 #include <utility>
 
 #include "chemistry/mechanism/mechanism_checks.hpp"
 #include "core/errors.hpp"
+#include "core/letter_case.hpp"
 #include "core/nearest_name.hpp"
 
 namespace lampblack::chemistry {
-
-namespace {
-
-std::string lowerCase(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](unsigned char c) { return static_cast<char>(c < 0x80 ? std::tolower(c) : c); });
-  return result;
-}
-
-}  // namespace
 
 Mechanism::Mechanism(std::string file, std::string description, std::vector<Element> elements,
                      std::vector<Species> species, std::vector<Reaction> reactions, std::vector<std::string> warnings,

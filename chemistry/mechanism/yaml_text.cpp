@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "core/letter_case.hpp"
+
 namespace lampblack::chemistry {
 
 namespace {
@@ -28,9 +30,7 @@ bool isAlphanumeric(char c) {
 bool isReserved(std::string_view name) {
   constexpr std::array<std::string_view, 11> words{"y",    "n",     "yes",  "no",  "on", "off",
                                                    "true", "false", "null", "nan", "inf"};
-  std::string lower(name);
-  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return std::ranges::find(words, lower) != words.end();
+  return std::ranges::find(words, lowerCase(name)) != words.end();
 }
 
 bool isPrintable(std::string_view text) {
