@@ -6,10 +6,10 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <optional>
 
 #include "core/errors.hpp"
+#include "io/unit_symbols.hpp"
 
 namespace lampblack::io::units {
 namespace {
@@ -63,85 +63,6 @@ const NamedDimension* nameOf(const Dimension& dimension) {
     if (named.dimension == dimension) return &named;
   }
   return nullptr;
-}
-
-struct Symbol {
-  std::string_view name;
-  Unit unit;
-  bool takesPrefix = false;
-};
-
-constexpr double degree = std::numbers::pi / 180.0;
-
-// Defining constants: BIPM, The International System of Units, 9th edition (2019); atm and Torr: CGPM 1954.
-constexpr std::array<Symbol, 32> symbols{{
-    {"m", {1.0, 0.0, length}, true},
-    {"g", {1e-3, 0.0, mass}, true},
-    {"s", {1.0, 0.0, time}, true},
-    {"K", {1.0, 0.0, temperature}, true},
-    {"mol", {1.0, 0.0, amount}, true},
-    {"rad", {1.0, 0.0, angle}, true},
-    {"deg", {degree, 0.0, angle}},
-    {"°", {degree, 0.0, angle}},
-    {"degC", {1.0, 273.15, temperature}},
-    {"°C", {1.0, 273.15, temperature}},
-    {"min", {60.0, 0.0, time}},
-    {"h", {3600.0, 0.0, time}},
-    {"Hz", {1.0, 0.0, frequency}, true},
-    {"N", {1.0, 0.0, force}, true},
-    {"Pa", {1.0, 0.0, pressure}, true},
-    {"bar", {1e5, 0.0, pressure}, true},
-    {"atm", {101325.0, 0.0, pressure}},
-    {"Torr", {101325.0 / 760.0, 0.0, pressure}},
-    {"J", {1.0, 0.0, energy}, true},
-    {"cal", {4.184, 0.0, energy}, true},
-    {"eV", {1.602176634e-19, 0.0, energy}, true},
-    {"W", {1.0, 0.0, watt}, true},
-    {"L", {1e-3, 0.0, volume}, true},
-    {"l", {1e-3, 0.0, volume}, true},
-    {"P", {0.1, 0.0, viscosity}, true},
-    {"t", {1e3, 0.0, mass}},
-    {"rpm", {degree * 6.0, 0.0, angularVelocity}},
-    {"%", {1e-2, 0.0, dimensionless}},
-    {"ppm", {1e-6, 0.0, dimensionless}},
-    {"ppb", {1e-9, 0.0, dimensionless}},
-    {"Å", {1e-10, 0.0, length}},
-    {"um", {1e-6, 0.0, length}},
-}};
-
-struct Prefix {
-  std::string_view name;
-  double factor;
-};
-
-constexpr std::array<Prefix, 15> prefixes{{{"f", 1e-15},
-                                           {"p", 1e-12},
-                                           {"n", 1e-9},
-                                           {"u", 1e-6},
-                                           {"\u00b5", 1e-6},
-                                           {"\u03bc", 1e-6},
-                                           {"m", 1e-3},
-                                           {"c", 1e-2},
-                                           {"d", 1e-1},
-                                           {"h", 1e2},
-                                           {"k", 1e3},
-                                           {"M", 1e6},
-                                           {"G", 1e9},
-                                           {"T", 1e12},
-                                           {"da", 1e1}}};
-
-std::optional<Unit> findSymbol(std::string_view name) {
-  for (const Symbol& symbol : symbols) {
-    if (symbol.name == name) return symbol.unit;
-  }
-  for (const Symbol& symbol : symbols) {
-    if (!symbol.takesPrefix || !name.ends_with(symbol.name)) continue;
-    const std::string_view front = name.substr(0, name.size() - symbol.name.size());
-    for (const Prefix& prefix : prefixes) {
-      if (prefix.name == front) return Unit{prefix.factor * symbol.unit.factor, 0.0, symbol.unit.dimension};
-    }
-  }
-  return std::nullopt;
 }
 
 std::string_view trim(std::string_view text) {
@@ -220,8 +141,8 @@ class UnitParser {
       while (position_ < text_.size() && !endsSymbol(text_[position_])) ++position_;
       const std::string_view name = text_.substr(start, position_ - start);
       if (name.empty()) fail(fmt::format("'{}' is not expected", text_.substr(start, 1)));
-      const auto known = findSymbol(name);
-      if (!known) fail(fmt::format("'{}' is not a unit known here", name));
+      const auto known = unitOfSymbol(name);
+      if (!known) fail(fmt::format("'{}' is not a unit known here{}", name, unitAsWrittenHere(name)));
       base = *known;
     }
     const int exponent = readExponent();
