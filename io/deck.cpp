@@ -8,19 +8,13 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "core/text_file.hpp"
+#include "io/deck_base.hpp"
 #include "io/deck_check.hpp"
 #include "io/deck_former_names.hpp"
 #include "io/deck_former_sections.hpp"
 
 namespace lampblack::io {
 namespace {
-
-constexpr std::uintmax_t largestDeck = 16U << 20U;  // bytes; a deck is a page or two
-
-std::string readFile(const std::filesystem::path& path) {
-  return readTextFile(path, "a deck", largestDeck);
-}
 
 // Rank 0's text on all ranks.
 std::string broadcast(std::string text, MPI_Comm comm) {
@@ -31,30 +25,32 @@ std::string broadcast(std::string text, MPI_Comm comm) {
   return text;
 }
 
-// Rank 0 reads the file, all ranks parse the same text.
+// Rank 0 reads the files, all ranks parse the same text.
 template <typename Schema>
 Deck loadCollectively(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                       const Schema& schema, MPI_Comm comm) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::string text;
+  DeckSource source{{path, {}}, {}, overrides};
   collectively(comm, [&] {
-    if (rank == 0) text = readFile(path);
+    if (rank == 0) source = readDeck(path, overrides);
   });
-  text = broadcast(std::move(text), comm);
+  source.file.text = broadcast(std::move(source.file.text), comm);
+  const DeckFile base = source.base.value_or(DeckFile{});
+  const std::string ofBase = broadcast(base.path.string(), comm), textOfBase = broadcast(base.text, comm);
+  if (!ofBase.empty()) source.base = {ofBase, textOfBase};
   std::optional<Deck> deck;
-  collectively(comm, [&] { deck = Deck::parse(std::move(text), path, overrides, schema); });
+  collectively(comm, [&] { deck = Deck::parse(std::move(source), schema); });
   return std::move(*deck);
 }
 
 }  // namespace
 
-Deck::Deck(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
-           const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose) {
-  const auto source = std::make_shared<DeckSource>(DeckSource{path, std::move(text), overrides});
+Deck::Deck(DeckSource read, const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose) {
+  const auto source = std::make_shared<DeckSource>(std::move(read));
   source_ = source;
-  root_ = parseDeck(*source);
-  for (std::size_t i = 0; i < overrides.size(); ++i) applyOverride(root_, *source, i);
+  root_ = parseOnBase(*source);
+  for (std::size_t i = 0; i < source->overrides.size(); ++i) applyOverride(root_, *source, i);
   schema_ = std::make_shared<DeckSchema>(choose(*source, root_));
   notes_ = moveFormerSections(*source, schema_->formerSections(), root_);
   const std::vector<std::string> moved = notes_;
@@ -69,22 +65,29 @@ Deck::Deck(std::string text, const std::filesystem::path& path, const std::vecto
   for (std::size_t i = 0; i < values_.size(); ++i) index_.emplace(values_[i].path, i);
 }
 
+Deck Deck::parse(DeckSource source, const DeckSchema& schema) {
+  return {std::move(source), [&](const DeckSource&, const DeckNode&) -> const DeckSchema& { return schema; }};
+}
+
+Deck Deck::parse(DeckSource source, const DeckKinds& kinds) {
+  return {std::move(source), [&](const DeckSource& chosen, const DeckNode& root) -> const DeckSchema& {
+            return chooseKind(chosen, root, kinds).schema;
+          }};
+}
+
 Deck Deck::parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
                  const DeckSchema& schema) {
-  return {std::move(text), path, overrides,
-          [&](const DeckSource&, const DeckNode&) -> const DeckSchema& { return schema; }};
+  return parse({{path, std::move(text)}, {}, overrides}, schema);
 }
 
 Deck Deck::parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
                  const DeckKinds& kinds) {
-  return {std::move(text), path, overrides, [&](const DeckSource& source, const DeckNode& root) -> const DeckSchema& {
-            return chooseKind(source, root, kinds).schema;
-          }};
+  return parse({{path, std::move(text)}, {}, overrides}, kinds);
 }
 
 Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string>& overrides,
                 const DeckSchema& schema) {
-  return parse(readFile(path), path, overrides, schema);
+  return parse(readDeck(path, overrides), schema);
 }
 
 Deck Deck::load(const std::filesystem::path& path, const std::vector<std::string>& overrides, const DeckSchema& schema,
@@ -240,7 +243,7 @@ InputError Deck::error(std::string_view key, const std::string& message) const {
 
 std::filesystem::path Deck::resolvePath(const std::string& name) const {
   const std::filesystem::path file(name);
-  return file.is_absolute() ? file : source_->path.parent_path() / file;
+  return file.is_absolute() ? file : source_->file.path.parent_path() / file;
 }
 
 }  // namespace lampblack::io

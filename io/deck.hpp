@@ -1,4 +1,5 @@
-// A run's input deck: a YAML file checked against a DeckSchema, with `--set a.b=c` on top. Every key is known, has its
+// A run's input deck: a YAML file, over another one where it names a base (io/deck_base.hpp), checked against a
+// DeckSchema, with `--set a.b=c` on top. Every key is known, has its
 // type, its unit and its range before anybody asks for it, so that the code that uses a deck cannot meet a bad one. All
 // values are SI. Reading is strict: unknown and repeated keys are errors, and a message shows the line they stand in.
 #pragma once
@@ -52,6 +53,10 @@ class Deck {
                     const DeckSchema& schema);
   static Deck parse(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
                     const DeckKinds& kinds);
+
+  // The same from what was read of its files.
+  static Deck parse(DeckSource source, const DeckSchema& schema);
+  static Deck parse(DeckSource source, const DeckKinds& kinds);
 
   // Typed access by path, list items by index: "mesh.z[0].cells". Asking for a key that the schema does not declare,
   // with another type, or that is optional and absent is a mistake of the caller: std::logic_error.
@@ -111,7 +116,7 @@ class Deck {
 
   // What the deck should say otherwise: a note for each former name of a key or choice.
   [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
-  [[nodiscard]] const std::filesystem::path& path() const { return source_->path; }
+  [[nodiscard]] const std::filesystem::path& path() const { return source_->file.path; }
   // A file named in the deck: relative names start from the deck's folder.
   [[nodiscard]] std::filesystem::path resolvePath(const std::string& name) const;
 
@@ -125,8 +130,7 @@ class Deck {
                                               ? static_cast<std::int64_t>(std::numeric_limits<T>::max())
                                               : std::numeric_limits<std::int64_t>::max();
   [[nodiscard]] std::int64_t integerWithin(std::string_view key, std::int64_t low, std::int64_t high) const;
-  Deck(std::string text, const std::filesystem::path& path, const std::vector<std::string>& overrides,
-       const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose);
+  Deck(DeckSource read, const std::function<const DeckSchema&(const DeckSource&, const DeckNode&)>& choose);
   [[nodiscard]] const DeckValue* find(std::string_view key) const;
   [[nodiscard]] const DeckValue& get(std::string_view key, KeyType type, bool list) const;
   [[nodiscard]] const DeckNode* nodeAt(std::string_view key) const;

@@ -67,6 +67,10 @@ std::string excerpt(const std::string& whole, const std::string& label, int colu
   return fmt::format("\n{:>6} | {}\n{:>6} | {}", label, line, "", marks);
 }
 
+const DeckFile& fileOf(const DeckSource& source, const DeckLocation& at) {
+  return at.isInBase ? source.base.value() : source.file;
+}
+
 }  // namespace
 
 std::string shortened(const std::string& text) {
@@ -100,9 +104,10 @@ InputError deckError(const DeckSource& source, const DeckLocation& at, const std
     if (at.line > 1 || text.find('\n') != std::string::npos) return InputError(place);
     return InputError(place + excerpt(text, "--set", at.column, at.length));
   }
-  if (at.line == 0) return InputError(fmt::format("{}: {}", source.path.string(), what));
-  return InputError(fmt::format("{}:{}:{}: {}{}", source.path.string(), at.line, at.column, what,
-                                excerpt(lineOf(source.text, at.line), std::to_string(at.line), at.column, at.length)));
+  const DeckFile& file = fileOf(source, at);
+  if (at.line == 0) return InputError(fmt::format("{}: {}", file.path.string(), what));
+  return InputError(fmt::format("{}:{}:{}: {}{}", file.path.string(), at.line, at.column, what,
+                                excerpt(lineOf(file.text, at.line), std::to_string(at.line), at.column, at.length)));
 }
 
 std::string deckPlace(const DeckSource& source, const DeckLocation& at) {
@@ -110,7 +115,8 @@ std::string deckPlace(const DeckSource& source, const DeckLocation& at) {
     const std::string& text = source.overrides.at(static_cast<std::size_t>(at.overrideIndex));
     return fmt::format("--set {}", shortened(text.substr(0, text.find('='))));
   }
-  return at.line == 0 ? source.path.string() : fmt::format("{}:{}", source.path.string(), at.line);
+  const std::string file = fileOf(source, at).path.string();
+  return at.line == 0 ? file : fmt::format("{}:{}", file, at.line);
 }
 
 }  // namespace lampblack::io

@@ -17,7 +17,7 @@ void DeckMistakes::raise() const {
   auto sorted = all_;
   std::ranges::stable_sort(sorted, {}, [](const auto& mistake) {
     const DeckLocation& at = mistake.first;
-    return std::tuple(at.overrideIndex, at.line == 0, at.line, at.column);
+    return std::tuple(at.overrideIndex, at.isInBase, at.line == 0, at.line, at.column);
   });
   std::string text;
   for (const auto& [at, message] : sorted) text += (text.empty() ? "" : "\n") + message;

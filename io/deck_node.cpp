@@ -200,17 +200,18 @@ DeckNode* DeckNode::child(std::string_view childName) {
   return const_cast<DeckNode*>(std::as_const(*this).child(childName));
 }
 
-DeckNode parseDeck(const DeckSource& source) {
+DeckNode parseDeck(const DeckFile& file) {
+  const DeckSource source{file, {}, {}};
   const auto fail = [&](const StructureError& error) {
     const bool known = !error.mark.is_null();
     return deckError(source, known ? locationOf(error.mark) : DeckLocation{}, error.key, error.message);
   };
-  if (const std::size_t zero = source.text.find('\0'); zero != std::string::npos) {
+  if (const std::size_t zero = file.text.find('\0'); zero != std::string::npos) {
     throw deckError(source, {}, "", "it is not a text file");
   }
   DeckNode root;
   try {
-    root = parseYaml(source.text);
+    root = parseYaml(file.text);
   } catch (const StructureError& error) {
     throw fail(error);
   } catch (const YAML::Exception& error) {

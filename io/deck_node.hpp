@@ -4,6 +4,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,19 +14,25 @@
 
 namespace lampblack::io {
 
-// The texts that messages quote from.
-struct DeckSource {
+struct DeckFile {
   std::filesystem::path path;
   std::string text;
+};
+
+// The texts that messages quote from.
+struct DeckSource {
+  DeckFile file;
+  std::optional<DeckFile> base;        // that the deck goes on from (io/deck_base.hpp)
   std::vector<std::string> overrides;  // "a.b=c"
 };
 
-// Where something stands: in the file (1-based line and column in bytes) or in an override.
+// Where something stands: in a file (1-based line and column in bytes) or in an override.
 struct DeckLocation {
-  int overrideIndex = -1;  // -1: in the file
+  int overrideIndex = -1;  // -1: in a file
   int line = 0;            // 0: nowhere, for instance a default
   int column = 0;
-  int length = 1;  // bytes to underline
+  int length = 1;         // bytes to underline
+  bool isInBase = false;  // the file is that of the deck's base
 };
 
 struct DeckNode {
@@ -56,9 +63,9 @@ InputError deckError(const DeckSource& source, const DeckLocation& at, const std
 // The same place in a few words, for notes of one line: "file:line", "--set a.b" or the file.
 std::string deckPlace(const DeckSource& source, const DeckLocation& at);
 
-// Reads the file text of `source`, a map at the top. InputError for bad YAML, repeated keys, aliases, several
+// Reads a file's text, a map at the top. InputError for bad YAML, repeated keys, aliases, several
 // documents.
-DeckNode parseDeck(const DeckSource& source);
+DeckNode parseDeck(const DeckFile& file);
 
 // Applies source.overrides[i] to the tree. Parts of maps that are missing are made; a list takes an index up to its
 // length. What a shell has left of a text with colons, "H2: 2, O2: 1", is taken as that text.

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "io/deck_base.hpp"
 #include "io/deck_former_names.hpp"
 #include "io/deck_schema.hpp"
 #include "io/json.hpp"
@@ -13,7 +14,9 @@ using Node = DeckSchema::Node;
 
 constexpr const char* introduction =
     "Every key a deck may have. `*` stands for a name you choose, `[]` for an item of a list. A quantity is a number "
-    "with a unit (`20 cm/s`); a bare number is in the unit shown; angles and speeds of revolution need theirs.\n";
+    "with a unit (`20 cm/s`); a bare number is in the unit shown; angles and speeds of revolution need theirs.\n\n"
+    "`base: deck.yaml` at the top has a deck go on from another one in its folder, and say only what differs: maps go "
+    "over those of the base key by key, values and lists replace them.\n";
 
 std::string typeText(const DeckKey& key) {
   std::string one;
@@ -246,12 +249,18 @@ std::string jsonSchema(const DeckSchema& schema) {
   return json.text() + "\n";
 }
 
-// One conditional subschema a kind: editors then know the keys of the kind that is being written.
+// One conditional subschema a kind: editors then know the keys of the kind that is being written. What a deck with a
+// base lacks is not theirs to tell.
 std::string jsonSchema(const DeckKinds& kinds) {
   JsonWriter json;
   json.beginObject();
   writeTitle(json);
   json.field("type", "object");
+  json.key("anyOf").beginArray().beginObject();
+  json.key("required").beginArray().value(baseKey).endArray();
+  json.key("properties").beginObject().key(baseKey).beginObject();
+  json.field("description", "A deck in the same folder that this one goes on from.").field("type", "string");
+  json.endObject().endObject().endObject().beginObject();
   json.key("properties").beginObject().key(kinds.key).beginObject().key("enum").beginArray();
   for (const DeckKind& kind : kinds.kinds)
     for (const std::string& name : namesOfKind(kind, kinds.key)) json.value(name);
@@ -273,7 +282,7 @@ std::string jsonSchema(const DeckKinds& kinds) {
     writeSchema(kind.schema.tree(), json);
     json.endObject();
   }
-  json.endArray().endObject();
+  json.endArray().endObject().endArray().endObject();
   return json.text() + "\n";
 }
 

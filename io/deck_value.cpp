@@ -137,8 +137,8 @@ DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std:
 
 DeckValue defaultDeckValue(const DeckKey& key, const std::string& path) {
   try {
-    const DeckSource source{"default", "default: " + key.defaultText, {}};
-    const DeckNode tree = parseDeck(source);
+    const DeckSource source{{"default", "default: " + key.defaultText}, {}, {}};
+    const DeckNode tree = parseDeck(source.file);
     DeckValue value = readDeckValue(source, key, path, tree.children.at(0));
     value.isDefault = true;
     return value;

@@ -101,7 +101,7 @@ std::vector<fs::path> decksIn(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.path().extension() != ".yaml") continue;
     const std::string text = textOf(entry.path());
-    if (hasLine(text, "problem:") || hasLine(text, "study:")) decks.push_back(entry.path());
+    if (hasLine(text, "problem:") || hasLine(text, "study:") || hasLine(text, "base:")) decks.push_back(entry.path());
   }
   std::ranges::sort(decks);
   return decks;

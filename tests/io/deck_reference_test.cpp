@@ -39,6 +39,7 @@ TEST(DeckKinds, AreChosenByTheirKey) {
   EXPECT_THAT(page, HasSubstr("## problem: one\n\nThe first.\n\n### Top level"));
   EXPECT_THAT(page, HasSubstr("- [`problem: two`](#problem-two): The second."));
   EXPECT_THAT(jsonSchema(kinds), HasSubstr("\"const\": \"two\""));
+  EXPECT_THAT(jsonSchema(kinds), HasSubstr("\"required\": [\n        \"base\"\n      ]"));
   EXPECT_EQ(Deck::parse("problem: two\nname: a", "deck.yaml", {}, kinds).string("name"), "a");
   EXPECT_EQ(Deck::parse("problem: two\ncells: 3", "deck.yaml", {"problem=one"}, kinds).integer("cells"), 3);
   EXPECT_THROW((void)Deck::parse("problem: two\ncells: 3", "deck.yaml", {}, kinds), InputError);

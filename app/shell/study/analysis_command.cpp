@@ -121,7 +121,7 @@ void addAnalysisCommands(CLI::App& app, Command& command) {
 
 bool isAnalysis(const std::string& file) {
   try {
-    const DeckNode root = parseDeck(DeckSource{file, readTextFile(file, "an analysis"), {}});
+    const DeckNode root = parseDeck({file, readTextFile(file, "an analysis")});
     return root.child("analysis") != nullptr && root.child("problem") == nullptr;
   } catch (const InputError&) {
     return false;

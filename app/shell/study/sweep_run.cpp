@@ -75,7 +75,7 @@ EarlierRun earlierRun(const Deck& deck, const std::filesystem::path& folder) {
   std::error_code error;
   if (!std::filesystem::exists(folder / "run.json", error)) return earlier;
   // JSON is read as the flow style of YAML.
-  const auto parsed = [](const std::string& text) { return parseDeck(DeckSource{"run.json", text, {}}); };
+  const auto parsed = [](const std::string& text) { return parseDeck({"run.json", text}); };
   try {
     const DeckNode record = parsed(readTextFile(folder / "run.json", "the record of a run"));
     const DeckNode *ran = record.child("deck"), *status = record.child("status"), *wall = record.child("wall_time_s");

@@ -92,7 +92,7 @@ const char* wordFor(RunFailure failure) {
 
 Leaves resultsOf(const std::string& record) {
   // JSON is read as the flow style of YAML.
-  const DeckNode root = parseDeck(DeckSource{"run.json", record, {}});
+  const DeckNode root = parseDeck({"run.json", record});
   Leaves leaves;
   if (const DeckNode* results = root.child("results")) addLeaves(*results, "", leaves);
   return leaves;
