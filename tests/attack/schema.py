@@ -24,7 +24,8 @@ def of_program(program: execution.Program) -> dict:
     """The schema of each problem's deck."""
     text = subprocess.run([program.executable, "deck-reference", "--json-schema"], env=execution.environment(),
                           capture_output=True, text=True, check=True, timeout=60).stdout
-    problems = [(part["if"]["properties"]["problem"], part["then"]) for part in json.loads(text)["allOf"]]
+    whole = json.loads(text)["anyOf"][-1]  # of a deck without a base
+    problems = [(part["if"]["properties"]["problem"], part["then"]) for part in whole["allOf"]]
     return {name.get("const") or name["enum"][0]: then for name, then in problems}
 
 
