@@ -40,7 +40,7 @@ NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowR
       faces_(static_cast<std::size_t>(context.mesh.faces)),
       size_(static_cast<std::size_t>(context.mesh.owned) * perCell_ + faces_) {
   const Mesh& m = context.mesh;
-  for (std::vector<double>* all : {&left_, &leftBeside_, &rows_, &units_}) all->resize(size_);
+  for (std::vector<double>* all : {&left_, &leftInTime_, &leftBeside_, &rows_, &units_}) all->resize(size_);
   gasRight_.resize(static_cast<std::size_t>(m.owned) * width_);
   gasChange_.resize(static_cast<std::size_t>(m.cells) * width_);
   densityChange_.resize(static_cast<std::size_t>(m.cells));
@@ -91,6 +91,33 @@ void NewtonKrylov::find(const State& state, std::span<double> left) {
     }
   }
   std::ranges::copy(rates.massFlux, left.begin() + static_cast<std::ptrdiff_t>(size_ - faces_));
+}
+
+void NewtonKrylov::takeInertia(const State& state, const State& start, std::span<double> left) const {
+  const std::size_t n = width_ - 1;
+  const auto d = static_cast<std::size_t>(state.dimension);
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c) {
+    double* own = &left[c * perCell_];
+    const double inertia = inertia_[c];
+    for (std::size_t k = 0; k < n; ++k) own[k] -= inertia * (state.Y[c * n + k] - start.Y[c * n + k]);
+    own[n] -= inertia * (state.temperature[c] - start.temperature[c]) / GasUpdate::kelvins;
+    for (std::size_t i = 0; i < d; ++i)
+      own[width_ + i] -= inertia * (state.velocity[c * d + i] - start.velocity[c * d + i]);
+    if (state.swirls) own[width_ + d] -= inertia * (state.swirl[c] - start.swirl[c]);
+    for (std::size_t s = 0; s < scalars_; ++s) {
+      const std::size_t i = c * scalars_ + s;
+      own[pastFlow_ + s] -= inertia * (state.carried[i] / state.density[c] - start.carried[i] / start.density[c]);
+    }
+  }
+}
+
+double NewtonKrylov::leftInTime(const State& state, const State& start) {
+  find(state, leftInTime_);
+  takeInertia(state, start, leftInTime_);
+  double sum = 0.0;
+  for (std::size_t i = 0; i < size_; ++i) sum += std::pow(rows_[i] * leftInTime_[i], 2);
+  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  return std::sqrt(sum);
 }
 
 void NewtonKrylov::move(State& state, double step, std::span<const double> along) const {
@@ -274,7 +301,8 @@ void NewtonKrylov::addBrought(std::span<const double> along) {
   }
 }
 
-NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double> inertia, double reduction) {
+NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double> inertia, double reduction,
+                                           const State* start) {
   const State base = state;
   base_ = &base;
   inertia_ = inertia;
@@ -285,9 +313,11 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   findScales(state);
   find(state, left_);
   baseMass_ = residual_.rates().mass;
+  leftInTime_ = left_;
+  if (start) takeInertia(state, *start, leftInTime_);
   {
     const PetscMutableValues values(rightSide_.get());
-    for (std::size_t i = 0; i < size_; ++i) values.get()[i] = rows_[i] * left_[i];
+    for (std::size_t i = 0; i < size_; ++i) values.get()[i] = rows_[i] * leftInTime_[i];
   }
   checkPetsc(KSPSetTolerances(solver_.get(), reduction, 1e-300, 1e10, krylov));
   exceptions_.run([&] { return KSPSolve(solver_.get(), rightSide_.get(), solution_.get()); });
@@ -299,6 +329,7 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   checkPetsc(KSPGetResidualNorm(solver_.get(), &norm));
   checkPetsc(VecNorm(rightSide_.get(), NORM_2, &of));
   result.reached = of > 0.0 ? norm / of : 0.0;
+  result.before = of;
   base_ = nullptr;
 
   const PetscValues values(solution_.get());

@@ -34,13 +34,20 @@ class NewtonKrylov {
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose change was limited
     double reached = 0.0;      // what is left of the linear system
+    double before = 0.0;       // the linear system's right side, as leftInTime() has it
   };
   // Collective. The residual is of the state; inertia (kg/s, owned cells): mass over the cell's pseudo-time. The
-  // residual is of some other state then.
-  Result advance(State& state, std::span<const double> inertia, double reduction);
+  // residual is of some other state then. `start`: the state that the pseudo-time begins with, where that is an earlier
+  // one (ImplicitStep); null: the state itself.
+  Result advance(State& state, std::span<const double> inertia, double reduction, const State* start = nullptr);
+  // Collective, after a step with it: what is left of the equations of that pseudo-time in a state, of which the
+  // residual is, over what goes through the domain (the root of the sum of squares).
+  [[nodiscard]] double leftInTime(const State& state, const State& start);
 
  private:
   void find(const State& state, std::span<double> left);
+  // Of what is left: what the change since the start of the pseudo-time takes.
+  void takeInertia(const State& state, const State& start, std::span<double> left) const;
   void move(State& state, double step, std::span<const double> along) const;
   void findScales(const State& state);
   void multiply(Vec x, Vec y);
@@ -57,7 +64,7 @@ class NewtonKrylov {
   std::size_t width_, velocities_, scalars_, perCell_, pastFlow_, faces_, size_;
   const State* base_ = nullptr;
   std::span<const double> inertia_;
-  std::vector<double> left_, leftBeside_, rows_, units_;
+  std::vector<double> left_, leftInTime_, leftBeside_, rows_, units_;
   std::vector<double> gasRight_, gasChange_, densityChange_, faceDensity_, baseMass_;
   std::vector<double> carriedRight_, carriedChange_;
   PetscExceptions exceptions_;

@@ -1,5 +1,7 @@
 #include "flow/steady/steady_iteration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -37,6 +39,7 @@ constexpr double enoughOfNewton = 0.5;
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 constexpr double growthAfterFailure = 1.2;
+constexpr int mostShorter = 6;  // implicit steps in one iteration, each shorter than that before
 // Of the Courant number, at least, where no cell was limited and no more is left than before: in thin cells the
 // residual falls as slowly as a small one lets it, and would hold it where it is.
 constexpr double quietGrowth = 1.1;
@@ -69,6 +72,8 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       newton_.emplace(context, state, residual_, gas_);
     else
       newton_.emplace(context, state, residual_, gas_, &*carried_, operators_);
+    if (!state.eddyViscosity.empty() && context.mechanism.numReactions() > 0)
+      step_.emplace(context, state, residual_, gas_, *carried_, operators_);
   }
   residual_.evaluate(state);
   measure_ = measure(state);
@@ -84,6 +89,7 @@ void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   mixing_.clear();
   gas_.saveOrLoad(archive);
   flow_.saveOrLoad(archive);
+  if (step_) step_->saveOrLoad(archive);
   if (!archive.loading()) return;
   residual_.evaluate(state);
   measure_ = measure(state);
@@ -293,6 +299,41 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
   return outcome;
 }
 
+SteadyIteration::Outcome SteadyIteration::stepInTime(State& state) {
+  Outcome outcome;
+  outcome.courant = courant_;
+  try {
+    const ImplicitStep::Result step = step_->advance(state, haste_);
+    outcome.newtonIterations = step.vectors;
+    outcome.largestRise = step.largestRise;
+    outcome.limited = step.limited;
+    outcome.taken = step.taken;
+    measure_ = outcome.measure = measure(state);
+  } catch (const NumericsError& error) {
+    outcome.why = error.what();
+    step_->shorten();
+    return outcome;
+  }
+  hurry();
+  if (!outcome.taken) outcome.why = fmt::format("Newton's method leads nowhere in a step of {:.2g} s", step_->time());
+  return outcome;
+}
+
+SteadyIteration::Outcome SteadyIteration::attemptInTime(State& state) {
+  const double last = measure_;
+  Outcome outcome;
+  for (int tries = 0; tries < mostShorter; ++tries) {
+    outcome = stepInTime(state);
+    if (outcome.taken) break;
+    takeBack(state, last);
+    outcome.measure = last;
+  }
+  isLimited_ = !outcome.taken || outcome.limited > 0;
+  isAnew_ = !outcome.taken;
+  mixing_.clear();
+  return outcome;
+}
+
 void SteadyIteration::waitForNewton() {
   waits_ = pause_;
   pause_ = std::min(2 * pause_, mostPause);
@@ -315,6 +356,7 @@ SteadyIteration::Outcome SteadyIteration::tryOne(State& state, bool mayAccelerat
   const double last = measure_;
   int newtonIterations = 0;
   bool isTakenBack = false;
+  if (step_ && last >= options_.inTime) return attemptInTime(state);
   if (newton_ && mayAccelerate && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
     const Outcome outcome = attemptTogether(state);
     if (outcome.taken) return outcome;

@@ -19,6 +19,7 @@
 #include "flow/steady/carried_update.hpp"
 #include "flow/steady/flow_update.hpp"
 #include "flow/steady/gas_update.hpp"
+#include "flow/steady/implicit_step.hpp"
 #include "flow/steady/load_control.hpp"
 #include "flow/steady/newton_krylov.hpp"
 #include "numerics/anderson_mixing.hpp"
@@ -39,6 +40,8 @@ class SteadyIteration {
     // accelerated: of a flow whose flame stands where it will stand.
     double accelerated = 3e-4;
     bool newton = true;
+    // The same above which, where gas that eddies stir reacts, iterations are steps of one time (ImplicitStep).
+    double inTime = 1e-5;
   };
 
   // Collective. `operators`: whose rates act in the cells; they have to live as long. The state is evaluated.
@@ -80,6 +83,9 @@ class SteadyIteration {
   Outcome attempt(State& state, bool mayAccelerate);
   // The same by Newton's method.
   Outcome attemptTogether(State& state);
+  // The same by a step of one time, and a shorter one where that fails, several times.
+  Outcome attemptInTime(State& state);
+  Outcome stepInTime(State& state);
   void takeBack(State& state, double measure);
   void waitForNewton();
   // Takes the best combination of the last iterations in place of the present.
@@ -107,6 +113,7 @@ class SteadyIteration {
   std::optional<CarriedUpdate> carried_;  // where the flow carries something
   FlowUpdate flow_;
   std::optional<NewtonKrylov> newton_;  // where no load or pressure of a vessel is an unknown and nothing eddies
+  std::optional<ImplicitStep> step_;    // where besides gas that eddies stir reacts
   AndersonMixing mixing_;
   double courant_;
   bool isAnew_ = true;     // the first iteration, or the last has failed

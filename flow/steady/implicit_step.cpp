@@ -1,0 +1,96 @@
+#include "flow/steady/implicit_step.hpp"
+
+#include <mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lampblack::flow {
+namespace {
+
+// Of Newton's method in a step: its linear systems, how often at most, and what of the step's equations is enough.
+constexpr double linearReduction = 0.05;
+constexpr int mostPasses = 3;
+constexpr double enough = 0.15;
+// What a step may leave of its equations to be taken, and to be followed by a longer one.
+constexpr double mostLeft = 0.3, leftOfEasy = 0.2;
+// Of the time of a step; near a time that was refused growth is slower.
+constexpr double growth = 2.0, slowGrowth = 1.2, nearRefused = 0.6, afterFailure = 0.4;
+constexpr int carriedPasses = 2;
+
+}  // namespace
+
+ImplicitStep::ImplicitStep(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
+                           CarriedUpdate& carried, std::vector<Operator*> operators)
+    : context_(context),
+      residual_(residual),
+      carried_(carried),
+      operators_(std::move(operators)),
+      newton_(context, state, residual, gas),
+      inertia_(static_cast<std::size_t>(context.mesh.owned)) {}
+
+void ImplicitStep::shorten() {
+  refused_ = time_;
+  time_ *= afterFailure;
+}
+
+void ImplicitStep::lengthen() {
+  if (time_ >= refused_) refused_ = INFINITY;
+  time_ = std::min(growth * time_, std::max(slowGrowth * time_, nearRefused * refused_));
+}
+
+void ImplicitStep::saveOrLoad(StateArchive& archive) {
+  archive.shared("steady_implicit_time", time_);
+  archive.shared("steady_implicit_time_refused", refused_);
+}
+
+// The least time in which other gas takes the place of a cell's.
+double ImplicitStep::renewal(const State& state) const {
+  const Mesh& m = context_.mesh;
+  std::vector<double> through(static_cast<std::size_t>(m.owned), 0.0);
+  for (int face = 0; face < m.faces; ++face)
+    for (const int cell : {m.low[face], m.high[face]})
+      if (cell >= 0 && cell < m.owned) through[cell] += 0.5 * std::abs(state.massFlux[face]);
+  double least = 1e300;
+  for (std::size_t c = 0; c < through.size(); ++c)
+    if (through[c] > 0.0) least = std::min(least, state.density[c] * m.volume[c] / through[c]);
+  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m.comm);
+  return least;
+}
+
+ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double> haste) {
+  for (Operator* op : operators_) op->setDiffusivities(state);
+  state.updateHalo(context_.halo);
+  residual_.evaluate(state);
+  if (!(time_ > 0.0)) time_ = renewal(state);
+  for (std::size_t c = 0; c < inertia_.size(); ++c)
+    inertia_[c] = state.density[c] * context_.mesh.volume[c] / (time_ * haste[c]);
+  const State start = state;
+  Result result;
+  result.time = time_;
+  double before = 0.0, left = 0.0;
+  for (int pass = 0; pass < mostPasses; ++pass) {
+    const NewtonKrylov::Result step = newton_.advance(state, inertia_, linearReduction, &start);
+    if (pass == 0) before = step.before;
+    result.vectors += step.iterations;
+    result.largestRise = std::max(result.largestRise, step.largestRise);
+    result.limited = step.limited;
+    residual_.evaluate(state);
+    left = newton_.leftInTime(state, start);
+    if (left <= enough * before) break;
+  }
+  for (int pass = 0; pass < carriedPasses; ++pass) {
+    residual_.evaluateCarried(state, pass > 0 ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
+    carried_.advance(state, residual_, inertia_);
+  }
+  residual_.evaluate(state);
+  result.taken = left <= mostLeft * before;
+  if (!result.taken)
+    shorten();
+  else if (left <= leftOfEasy * before)
+    lengthen();
+  return result;
+}
+
+}  // namespace lampblack::flow

@@ -1,0 +1,62 @@
+// A step of one time for all cells, implicit (Euler's), of a turbulent flame that has not come to where it stands: gas,
+// velocities, pressure and mass fluxes together by Newton's method (NewtonKrylov) with the eddies as they are, then
+// what is carried, the eddies' variables among it (CarriedUpdate). The eddies' equations, whose sources bend within
+// what a jet's edge takes to cross a cell, would hold all others in as short a time. Steps need no accuracy in time:
+// they follow the flame where iterations in pseudo-times of the cells' own take one cell further than its neighbours,
+// and are a hundred times as long as explicit ones once the flame moves slowly (pseudo-transient continuation: Kelley
+// and Keyes 1998). docs/theory/flow.md, "Iterations".
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/modules.hpp"
+#include "core/state_archive.hpp"
+#include "flow/equations/flow_residual.hpp"
+#include "flow/flow_context.hpp"
+#include "flow/operator.hpp"
+#include "flow/state.hpp"
+#include "flow/steady/carried_update.hpp"
+#include "flow/steady/gas_update.hpp"
+#include "flow/steady/newton_krylov.hpp"
+
+namespace lampblack::flow {
+
+class ImplicitStep {
+ public:
+  // Collective. All have to live as long.
+  ImplicitStep(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
+               CarriedUpdate& carried, std::vector<Operator*> operators);
+
+  struct Result {
+    bool taken = false;        // else the state is of no use, and the next step is shorter
+    double time = 0.0;         // s, that was tried
+    int vectors = 0;           // of the linear solver
+    double largestRise = 0.0;  // K, of any cell before it was limited
+    std::int64_t limited = 0;  // cells whose last change was limited
+  };
+  // Collective. The residual is of the state then. `haste` (owned cells): of the time that other cells have.
+  // NumericsError where the gas has no properties or rates.
+  Result advance(State& state, std::span<const double> haste);
+  // After a step that ended with an error.
+  void shorten();
+  // s, of the next step; zero before the first.
+  [[nodiscard]] double time() const { return time_; }
+  void saveOrLoad(StateArchive& archive);
+
+ private:
+  void lengthen();
+  [[nodiscard]] double renewal(const State& state) const;
+
+  const FlowContext& context_;
+  FlowResidual& residual_;
+  CarriedUpdate& carried_;
+  std::vector<Operator*> operators_;
+  NewtonKrylov newton_;
+  double time_ = 0.0, refused_ = INFINITY;  // s, of the next step, and the last that was not taken
+  std::vector<double> inertia_;             // kg/s, owned cells
+};
+
+}  // namespace lampblack::flow

@@ -1,0 +1,120 @@
+// Implicit steps of one time towards the steady state of a turbulent flow.
+#include "flow/steady/implicit_step.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numeric>
+
+#include "flow/steady/steady_iteration.hpp"
+#include "stirred_channel.hpp"
+
+namespace lampblack::test {
+namespace {
+
+struct Stepped : StirredChannel {
+  FlowResidual residual{box->context, *state, VelocityScheme::Limited, operators};
+  GasUpdate gas{box->context, *state, operators};
+  CarriedUpdate carried{box->context, *state, residual, operators};
+};
+
+// Newton's method in a step of given time ends where what changes over the time is what is left at its end.
+TEST(ImplicitSteps, TakeTheRatesOfTheirEnd) {
+  Stepped channel;
+  Box& b = *channel.box;
+  State& state = *channel.state;
+  NewtonKrylov newton(b.context, state, channel.residual, channel.gas);
+  const double time = 3e-5;  // s, a quarter of a cell's
+  std::vector<double> inertia(at(b.mesh.owned));
+  for (std::size_t c = 0; c < inertia.size(); ++c) inertia[c] = state.density[c] * b.mesh.volume[c] / time;
+  const State start = state;
+  channel.residual.evaluate(state);
+  double first = 0.0, left = 0.0;
+  for (int pass = 0; pass < 4; ++pass) {
+    const NewtonKrylov::Result result = newton.advance(state, inertia, 1e-6, &start);
+    if (pass == 0) first = result.before;
+    channel.residual.evaluate(state);
+    left = newton.leftInTime(state, start);
+  }
+  report(fmt::format("left {:.3g} of {:.3g}", left, first));
+  EXPECT_LT(left, 1e-5 * first);
+  const std::vector<double>& rates = channel.residual.rates().momentum;
+  const auto rate = [&](int c) { return rates[at(2 * c + 1)]; };
+  const auto change = [&](int c) {
+    return inertia[at(c)] * (state.velocity[at(2 * c + 1)] - start.velocity[at(2 * c + 1)]);
+  };
+  const double most = largest(b.mesh, [&](int c) { return std::abs(rate(c)); });
+  EXPECT_GT(most, 0.0);
+  // The sum of squares of all cells' shares of what goes through is less than that of each.
+  EXPECT_LT(largest(b.mesh, [&](int c) { return std::abs(change(c) - rate(c)); }), 1e-3 * most);
+}
+
+// The first is as long as gas stays in the smallest cell, and they grow; where they lead is the steady state that
+// iterations find.
+TEST(ImplicitSteps, LeadToTheSteadyState) {
+  Stepped channel;
+  Box& b = *channel.box;
+  State& state = *channel.state;
+  State sought = state;
+  SteadyIteration iteration(b.context, sought, {.inTime = 1e300}, channel.operators);
+  for (int i = 0; i < 100; ++i)
+    if (iteration.iterate(sought).measure < 1e-10) break;
+  EXPECT_LT(iteration.last().measure, 1e-10);
+  ImplicitStep step(b.context, state, channel.residual, channel.gas, channel.carried, channel.operators);
+  const std::vector<double> even(at(b.mesh.owned), 1.0);
+  double past = 0.0, least = 1e300;
+  const double stays = 0.0025 / StirredChannel::speed;
+  int steps = 0;
+  for (; steps < 40 && least > 1e-6; ++steps) {
+    const ImplicitStep::Result result = step.advance(state, even);
+    EXPECT_TRUE(result.taken);
+    if (steps == 0) {
+      EXPECT_NEAR(result.time, stays, 0.05 * stays);
+    }
+    past += result.time;
+    least = largest(b.mesh, [&](int c) {
+      const std::size_t i = at(2 * c);
+      return std::max(std::abs(state.velocity[i + 1] - sought.velocity[i + 1]) / StirredChannel::speed,
+                      std::abs(state.carried[i] / sought.carried[i] - 1.0));
+    });
+  }
+  report(fmt::format("{} steps, {:.3g} s, off by {:.2g}", steps, past, least));
+  EXPECT_LT(least, 1e-6);
+  EXPECT_GT(step.time(), 1e3 * stays);
+}
+
+// Cells that have less time change by less.
+TEST(ImplicitSteps, AreShorterWhereCellsAreSlow) {
+  double changes[2];
+  for (const bool isSlow : {false, true}) {
+    Stepped channel;
+    Box& b = *channel.box;
+    State& state = *channel.state;
+    const State start = state;
+    ImplicitStep step(b.context, state, channel.residual, channel.gas, channel.carried, channel.operators);
+    EXPECT_TRUE(step.advance(state, std::vector<double>(at(b.mesh.owned), isSlow ? 0.01 : 1.0)).taken);
+    changes[isSlow ? 1 : 0] =
+        largest(b.mesh, [&](int c) { return std::abs(state.velocity[at(2 * c + 1)] - start.velocity[at(2 * c + 1)]); });
+    const double time = step.time();
+    step.shorten();
+    EXPECT_EQ(step.time(), 0.4 * time);
+  }
+  EXPECT_LT(changes[1], 0.1 * changes[0]);
+}
+
+// Where gas that eddies stir reacts, iterations are such steps until little is left, and end where others do.
+TEST(ImplicitSteps, AreTheIterationsOfWhatEddiesStir) {
+  StirredChannel channel;
+  Box& b = *channel.box;
+  SteadyIteration iteration(b.context, *channel.state, {}, channel.operators);
+  const SteadyIteration::Outcome first = iteration.iterate(*channel.state);
+  EXPECT_TRUE(first.taken);
+  EXPECT_GT(first.newtonIterations, 0);
+  EXPECT_EQ(first.gasIterations, 0);
+  double measure = first.measure;
+  for (int i = 0; i < 60 && measure > 1e-10; ++i) measure = iteration.iterate(*channel.state).measure;
+  EXPECT_LE(measure, 1e-10);
+}
+
+}  // namespace
+}  // namespace lampblack::test
