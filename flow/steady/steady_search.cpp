@@ -23,10 +23,9 @@ constexpr double near = 0.2;
 constexpr int quietSteps = 20;
 constexpr double quietHeat = 0.05;
 constexpr int stepsPerResidual = 10;
-// Iterations without a residual, the largest or that of momentum or heat, that is less than the best before by a share,
-// and without more heat than before by a share: while a flame grows the residuals rise from those of a start in which
+// Gain: a residual, the largest or that of momentum or heat, that is less than the best before by a share, or more heat
+// than before by a share: while a flame grows the residuals rise from those of a start in which
 // little happens, and the largest, of a radical that is hardly there, tells nothing.
-constexpr int patience = 100;
 constexpr double gain = 0.9, growth = 1.05;
 constexpr int mostFailures = 8;  // one behind the other
 // Of the residual that iterations begin with: with more they run away.
@@ -169,11 +168,11 @@ void SteadySearch::addIteration(const Residual& told, double heatRelease, bool b
     mostHeat_ = heatRelease;
     bestAt_ = iterationsNow_;
   }
-  if (!isAttempt_ && iterationsNow_ - bestAt_ >= patience)
+  if (!isAttempt_ && iterationsNow_ - bestAt_ >= options_.patience)
     goBack(
         fmt::format("in {} iterations neither the largest residual has fallen below {:.2e} nor, where gas reacts, "
                     "those of momentum and enthalpy further, nor the heat release risen",
-                    patience, best_.largest));
+                    options_.patience, best_.largest));
   else if (hasNoIterationsLeft() && isAttempt_)
     goBack(fmt::format("{} iterations were not enough", iterationsNow_));
   else if (hasNoIterationsLeft())

@@ -23,6 +23,9 @@ class SteadySearch {
     // Attempts to iterate before that, after 20 steps and each after twice as many: an attempt that fails is taken
     // back, and the search goes on as if it had not been.
     int attempts = 0;
+    // Iterations without gain before they end in vain; steps of one time (ImplicitStep) are iterations, too, and the
+    // residuals of a flame on its way rise before they fall.
+    int patience = 100;
   };
   enum class Phase { Steps, Iterations };
   // The largest residual of any equation, and those that carry the flame, of momentum (or swirl) and of enthalpy: a

@@ -19,6 +19,9 @@ constexpr const char* mode = "time.mode";
 constexpr const char* steadySection = "time.steady";
 constexpr const char* stabilitySection = "time.steady.stability";
 constexpr int usualAttempts = 2;
+// Iterations without gain of a flame in eddies, which are steps of one time until it stands.
+constexpr int patienceInEddies = 400;
+
 // Of a mesh on which a flame is sought from the deck's own start; on finer ones from that of a coarser.
 constexpr int mostCellsAlone = 3000, mostCoarserMeshes = 5;
 
@@ -196,6 +199,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   TimeControl::Search search;
   search.attempts = usualAttempts;
   search.reacts = flowCase.mechanism->numReactions() > 0;
+  if (search.reacts && deck.has("turbulence")) search.patience = patienceInEddies;
   search.coarserMeshes = usualCoarserMeshes(deck, flowCase);
   if (!deck.has(steadySection)) return search;
   searchKeys().read(deck, search, steadySection);
