@@ -143,6 +143,32 @@ class RosenbrockSolver {
     return true;
   }
 
+  // What a step makes of a small change of its start, by the derivatives there: for goesOn, which is asked while the
+  // matrix is that of the step.
+  template <RosenbrockSystem System>
+  void carry(System& system, std::span<double> change) {
+    const std::size_t n = change.size();
+    const auto solveFor = [&](std::vector<double>& k, const auto& rightSide) {
+      for (std::size_t i = 0; i < n; ++i) k[i] = rightSide(i);
+      system.solve(k);
+    };
+    // (I - gamma h J)^-1 gamma h J v = (I - gamma h J)^-1 v - v.
+    solveFor(k1_, [&](std::size_t i) { return change[i]; });
+    for (std::size_t i = 0; i < n; ++i) k1_[i] -= change[i];
+    solveFor(k2_, [&](std::size_t i) { return k1_[i]; });
+    for (std::size_t i = 0; i < n; ++i) {
+      k2_[i] = k1_[i] + 2 * k2_[i];
+      end_[i] = change[i] + 2 * k1_[i];
+    }
+    solveFor(k3_, [&](std::size_t i) { return end_[i] + (k1_[i] - k2_[i]) / 2; });
+    for (std::size_t i = 0; i < n; ++i) {
+      k3_[i] -= end_[i];
+      end_[i] += k3_[i];
+    }
+    solveFor(k4_, [&](std::size_t i) { return end_[i] + (k1_[i] - k2_[i] - 8.0 / 3.0 * k3_[i]) / 2; });
+    for (std::size_t i = 0; i < n; ++i) change[i] = k4_[i];
+  }
+
   template <typename Rates, typename Jacobian, typename Guard>
   requires(!RosenbrockSystem<Rates>) Result
       integrate(const Rates& rates, const Jacobian& jacobian, double dt, std::span<double> y,

@@ -30,7 +30,8 @@ class ReactorRosenbrock::Counted {
 ReactorRosenbrock::ReactorRosenbrock(ReactorSystem& system) : system_(system), matrix_(system) {}
 
 bool ReactorRosenbrock::advance(const ReactorIntegrator::Interval& interval, std::span<double> state,
-                                ReactorIntegrator::Work& work, const ReactorIntegrator::Watcher& watcher) {
+                                ReactorIntegrator::Work& work, const ReactorIntegrator::Watcher& watcher,
+                                std::span<double> slopes) {
   smallest_.assign(state.size(), interval.absoluteTolerance / interval.relativeTolerance);
   smallest_[system_.numSpecies()] = 1;  // K: as of CVODE
   Counted system(system_, matrix_, work);
@@ -38,6 +39,8 @@ bool ReactorRosenbrock::advance(const ReactorIntegrator::Interval& interval, std
   const auto tell = [&](std::span<const double> y, double size) {
     reached += size;
     if (watcher) watcher({reached, size, 3, y[system_.numSpecies()]});
+    for (std::size_t begin = 0; begin < slopes.size(); begin += y.size())
+      solver_.carry(system, slopes.subspan(begin, y.size()));
     return true;
   };
   RosenbrockSolver::Result result;

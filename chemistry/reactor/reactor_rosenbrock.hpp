@@ -23,7 +23,13 @@ class ReactorRosenbrock {
   // False where that takes more than interval.maxSteps, steps rejected among them; `state` is then the last one
   // reached.
   bool advance(const ReactorIntegrator::Interval& interval, std::span<double> state, ReactorIntegrator::Work& work,
-               const ReactorIntegrator::Watcher& watcher = {});
+               const ReactorIntegrator::Watcher& watcher = {}) {
+    return advance(interval, state, work, watcher, {});
+  }
+  // The same with the derivatives of the end by the start, column-major: to what `slopes` holds, derivatives of the
+  // start by anything, the interval is applied, with the Jacobian of each step's start.
+  bool advance(const ReactorIntegrator::Interval& interval, std::span<double> state, ReactorIntegrator::Work& work,
+               const ReactorIntegrator::Watcher& watcher, std::span<double> slopes);
 
   // s, what the error of the last step asks of the next, in the same state or the next interval.
   double nextStep() const { return nextStep_; }

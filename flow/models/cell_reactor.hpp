@@ -43,14 +43,19 @@ class CellReactor {
     std::span<double> values;
     std::span<double> slopes;  // empty: not wanted
   };
+  struct Asked {
+    Gas gas;  // by its temperature, pressure and mixing
+    std::span<const double> Y;
+    Rates rates;  // to be found
+  };
 
   virtual ~CellReactor() = default;
-  // How many cells are best advanced at once.
+  // How many cells are best advanced, or asked for their rates, at once.
   [[nodiscard]] virtual std::size_t cellsTogether() const = 0;
   // Over dt (s), a result a cell; that of a cell depends on this cell alone, to the last bit. FailureInGroup.
   virtual void advance(std::span<const Cell> cells, double dt, std::span<Result> results) = 0;
-  // Of a gas by its temperature, pressure and mixing. NumericsError where there are none.
-  virtual void rates(const Gas& gas, std::span<const double> Y, const Rates& rates) = 0;
+  // Those of a cell depend on this cell alone, to the last bit. NumericsError where one has none.
+  virtual void rates(std::span<const Asked> cells) = 0;
 
  protected:
   CellReactor() = default;

@@ -30,7 +30,12 @@ void ConstantPressureCells::advance(std::span<const Cell> cells, double dt, std:
                   found_[i].handedOver ? 1.0 : 0.0};
 }
 
-void ConstantPressureCells::rates(const Gas& gas, std::span<const double> Y, const Rates& rates) {
+void ConstantPressureCells::rates(std::span<const Asked> cells) {
+  for (const Asked& cell : cells) findRates(cell);
+}
+
+void ConstantPressureCells::findRates(const Asked& cell) {
+  const auto& [gas, Y, rates] = cell;
   std::ranges::copy(Y, y_.begin());
   y_.back() = gas.temperature;
   system_.setConditions(gas.pressure, {}, 0.0, gas.mixing.reactingShare);

@@ -27,9 +27,11 @@ class ConstantPressureCells final : public CellReactor {
   [[nodiscard]] std::size_t cellsTogether() const override { return 256; }
   // ReactorFailure where the reactor fails.
   void advance(std::span<const Cell> cells, double dt, std::span<Result> results) override;
-  void rates(const Gas& gas, std::span<const double> Y, const Rates& rates) override;
+  void rates(std::span<const Asked> cells) override;
 
  private:
+  void findRates(const Asked& cell);
+
   const Thermo& thermo_;
   ConstantPressureReactor reactor_;
   ReactorSystem system_;  // of rates alone

@@ -11,6 +11,12 @@
 #include "flow/models/constant_pressure_cells.hpp"
 
 namespace lampblack::flow {
+namespace {
+
+// Cells whose slopes, dense matrices, are kept at once.
+constexpr std::size_t mostSlopesTogether = 32;
+
+}  // namespace
 
 ReactionOperator::ReactionOperator(const FlowContext& context, const Options& options)
     : ReactionOperator(context, options,
@@ -196,15 +202,24 @@ template <typename Take>
 void ReactionOperator::eachRates(const State& state, bool wantsSlopes, const Take& take) {
   const auto n = static_cast<std::size_t>(state.species), width = n + 1;
   const std::span<const CellMixing> mixing = mixing_ ? mixing_->of(state) : std::span<const CellMixing>();
-  std::vector<double> rate(n), J(wantsSlopes ? width * width : 0);
-  inEachCell(context_.mesh, [&](int c) {
-    const auto cell = static_cast<std::size_t>(c);
-    CellReactor::Gas gas;
-    gas.temperature = state.temperature[cell];
-    gas.pressure = state.thermodynamicPressure;
-    if (mixing_) gas.mixing = mixing[cell];
-    reactor_->rates(gas, {&state.Y[cell * n], n}, {rate, J});
-    take(cell, rate, J);
+  const std::size_t together =
+      wantsSlopes ? std::min(mostSlopesTogether, reactor_->cellsTogether()) : reactor_->cellsTogether();
+  const std::size_t ofSlopes = wantsSlopes ? width * width : 0;
+  std::vector<double> values(together * n), slopes(together * ofSlopes);
+  std::vector<CellReactor::Asked> asked;
+  inGroupsOfCells(context_.mesh, static_cast<int>(together), [&](std::span<const int> cells) {
+    asked.assign(cells.size(), {});
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const auto cell = static_cast<std::size_t>(cells[i]);
+      asked[i].gas.temperature = state.temperature[cell];
+      asked[i].gas.pressure = state.thermodynamicPressure;
+      if (mixing_) asked[i].gas.mixing = mixing[cell];
+      asked[i].Y = {&state.Y[cell * n], n};
+      asked[i].rates = {{&values[i * n], n}, std::span(slopes).subspan(i * ofSlopes, ofSlopes)};
+    }
+    reactor_->rates(asked);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      take(static_cast<std::size_t>(cells[i]), asked[i].rates.values, asked[i].rates.slopes);
   });
 }
 

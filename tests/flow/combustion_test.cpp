@@ -119,8 +119,8 @@ TEST_F(Mixed, RatesHaveTheirShareAndSlopes) {
   }
 }
 
-// Fine structures: elements and enthalpy stay, a short interval changes what the rates say, and slopes are those of the
-// implicit step, which short structures are.
+// Fine structures: elements and enthalpy stay, a short interval changes what the rates say, and rates and slopes of
+// short ones are a share of those of the mean.
 TEST_F(Mixed, FineStructuresReactAndMixBack) {
   const double fineTime = 1e-9, share = 0.2;
   GivenMixing mixing(box.mesh, [&](const Vector3&) { return CellMixing{share, fineTime}; });
@@ -161,6 +161,69 @@ TEST_F(Mixed, FineStructuresReactAndMixBack) {
         after += moles * state.Y[at(c) * n + k];
       }
       EXPECT_NEAR(after, before, 1e-12 * (before + 1.0));
+    }
+  }
+}
+
+// Fine structures in which the gas ignites: rates sum to nothing, are those of tighter tolerances to a tenth of the
+// reactor's, do not depend on the cells that are asked with one, and slopes are their differences.
+TEST_F(Mixed, FineStructuresHaveTheRatesOfOneStateAndTheirSlopes) {
+  const std::size_t width = n + 1;
+  const auto ratesOf = [&](CellReactor& reactor, std::span<const double> temperatures, std::span<const double> Y,
+                           std::span<double> slopes) {
+    std::vector<double> values(temperatures.size() * n);
+    std::vector<CellReactor::Asked> asked(temperatures.size());
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      asked[i].gas.temperature = temperatures[i];
+      asked[i].gas.pressure = 101325.0;
+      asked[i].gas.mixing = {0.3, i == 1 ? 0.0 : 8e-6};  // one without fine structures among them
+      asked[i].Y = Y;
+      asked[i].rates.values = {&values[i * n], n};
+      if (!slopes.empty()) asked[i].rates.slopes = slopes.subspan(i * width * width, width * width);
+    }
+    reactor.rates(asked);
+    return values;
+  };
+  const auto reactor = fineCells();
+  const auto exact = std::make_unique<FineStructureCells>(
+      gas.mechanism, gas.thermo,
+      ConstantPressureReactor::Options{
+          .relativeTolerance = 1e-10, .absoluteTolerance = 1e-16, .negligibleChange = 0.0});
+  const std::vector<double> temperatures{1050.0, 1100.0, 1300.0, 1700.0, 2400.0};
+  std::vector<double> slopes(temperatures.size() * width * width);
+  const auto values = ratesOf(*reactor, temperatures, burning, slopes);
+  const auto tight = ratesOf(*exact, temperatures, burning, {});
+  // The Jacobian of each step's start, in steps that a method of third order takes with a tolerance of 1e-5.
+  const double rise = 1e-3, more = 1e-7, ofFrozen = 2.0 * std::cbrt(1e-5);
+  std::vector<double> warmer = temperatures, wetter = burning;
+  for (double& T : warmer) T += rise;
+  const std::size_t water = gas.mechanism.speciesIndex("H2O");
+  wetter[water] += more;
+  const auto above = ratesOf(*exact, warmer, burning, {}), beside = ratesOf(*exact, temperatures, wetter, {});
+  for (std::size_t i = 0; i < temperatures.size(); ++i) {
+    SCOPED_TRACE(temperatures[i]);
+    if (i != 1) {
+      EXPECT_EQ(ratesOf(*reactor, {&temperatures[i], 1}, burning, {}),
+                std::vector<double>(&values[i * n], &values[i * n] + n));
+    }
+    double sum = 0.0, fastest = 0.0;
+    std::array<double, 2> steepest{};  // by temperature, by the mass fraction of water
+    const double* own = &slopes[i * width * width];
+    const auto slope = [&](bool isOfWater, std::size_t k) { return own[(isOfWater ? water : n) * width + k]; };
+    const auto difference = [&](bool isOfWater, std::size_t k) {
+      return isOfWater ? (beside[i * n + k] - tight[i * n + k]) / more : (above[i * n + k] - tight[i * n + k]) / rise;
+    };
+    for (std::size_t k = 0; k < n; ++k) {
+      sum += values[i * n + k];
+      fastest = std::max(fastest, std::abs(values[i * n + k]));
+      for (const bool isOfWater : {false, true})
+        steepest[isOfWater] = std::max(steepest[isOfWater], std::abs(difference(isOfWater, k)));
+    }
+    EXPECT_NEAR(sum, 0.0, 1e-11 * fastest);
+    for (std::size_t k = 0; k < n; ++k) {
+      EXPECT_NEAR(values[i * n + k], tight[i * n + k], 1e-7 * fastest) << k;
+      for (const bool isOfWater : {false, true})
+        EXPECT_NEAR(slope(isOfWater, k), difference(isOfWater, k), ofFrozen * steepest[isOfWater]) << k << isOfWater;
     }
   }
 }

@@ -279,8 +279,10 @@ class StirredCells final : public CellReactor {
                     at < 301.0 ? 0.0 : 1.0};
     }
   }
-  void rates(const Gas&, std::span<const double> Y, const Rates& rates) override {
-    for (std::size_t k = 0; k < inflow_.size(); ++k) rates.values[k] = (inflow_[k] - Y[k]) / residenceTime_;
+  void rates(std::span<const Asked> cells) override {
+    ASSERT_LE(cells.size(), cellsTogether());
+    for (const auto& [_, Y, rates] : cells)
+      for (std::size_t k = 0; k < inflow_.size(); ++k) rates.values[k] = (inflow_[k] - Y[k]) / residenceTime_;
   }
 
  private:

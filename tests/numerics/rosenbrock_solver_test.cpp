@@ -57,6 +57,51 @@ double endAfterRosenbrockSteps(int steps) {
   return y[1];
 }
 
+// A small change of the start goes where a difference of two solutions goes, with each step's Jacobian held: to the
+// change of the Jacobian in a step.
+TEST(RosenbrockSolver, CarriesAChangeOfItsStart) {
+  DenseRosenbrockMatrices matrices(3);
+  DenseRosenbrockSystem system(robertson, robertsonJacobian, matrices);
+  const std::array<double, 3> smallest{1, 1e-5, 1}, away{0.3, 2e-6, -0.5};
+  const double dt = 0.4, small = 1e-6;
+  const auto end = [&](double share, std::span<double> change) {
+    RosenbrockSolver solver;
+    std::vector<double> y{1, 2e-5, 0.1};
+    for (std::size_t i = 0; i < 3; ++i) y[i] += share * away[i];
+    solver.integrate(system, dt, 0, y, {1e-8, smallest}, [&](std::span<const double>, double) {
+      if (!change.empty()) solver.carry(system, change);
+      return true;
+    });
+    return y;
+  };
+  std::vector<double> change(away.begin(), away.end());
+  const auto at = end(0, change), beside = end(small, {});
+  EXPECT_GT(std::abs(change[1] / away[1]), 2.0);  // it does not stay what it was
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double difference = (beside[i] - at[i]) / small;
+    EXPECT_NEAR(change[i], difference, 3e-3 * std::abs(difference)) << i;
+  }
+}
+
+// Of a linear system, whose Jacobian stays, to the last step's round-off.
+TEST(RosenbrockSolver, CarriesAChangeOfALinearSystemAsItself) {
+  const auto rates = [](std::span<const double> x, std::span<double> f) { f[0] = x[1], f[1] = -4 * x[0] - 50 * x[1]; };
+  const auto jacobian = [](std::span<const double>, DenseLu& J) {
+    J.column(0)[0] = 0, J.column(1)[0] = 1;
+    J.column(0)[1] = -4, J.column(1)[1] = -50;
+  };
+  DenseRosenbrockMatrices matrices(2);
+  DenseRosenbrockSystem system(rates, jacobian, matrices);
+  RosenbrockSolver solver;
+  std::vector<double> y{1, 0}, change = y;
+  const auto result = solver.integrate(system, 2, 0, y, {1e-4, onesOfThree}, [&](std::span<const double>, double) {
+    solver.carry(system, change);
+    return true;
+  });
+  EXPECT_GT(result.steps, 3);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_NEAR(change[i], y[i], 1e-13);
+}
+
 TEST(RosenbrockSolver, IsOfThirdOrder) {
   const double coarse = endAfterRosenbrockSteps(20), middle = endAfterRosenbrockSteps(40),
                fine = endAfterRosenbrockSteps(80);

@@ -14,6 +14,21 @@ namespace {
 constexpr double longestPart = 0.5;  // of tau*/chi
 constexpr double mostPartsOfAStep = 1e5;
 constexpr double unitTime = 1.0;  // s
+// Of the tolerances of reactors, for rates of a state: from one state to another the reactors take other steps, and
+// their error jumps. What is left of the equations, and differences of it, cannot be known beyond that.
+constexpr double smoother = 0.01;
+constexpr int moreSteps = 8;
+// Slopes steer iterations.
+constexpr double toleranceOfSlopes = 1e-5, absoluteToleranceOfSlopes = 1e-11;
+constexpr int mostStepsOfSlopes = 1000;
+
+ConstantPressureReactor::Options smoothOf(ConstantPressureReactor::Options options) {
+  options.relativeTolerance *= smoother;
+  options.absoluteTolerance *= smoother;
+  options.negligibleChange *= smoother;
+  options.rosenbrockSteps *= moreSteps;
+  return options;
+}
 
 }  // namespace
 
@@ -21,30 +36,32 @@ FineStructureCells::FineStructureCells(const Mechanism& mechanism, const Thermo&
                                        const ConstantPressureReactor::Options& options)
     : thermo_(thermo),
       plain_(mechanism, thermo, options),
+      smooth_(mechanism, thermo, smoothOf(options)),
       system_(mechanism, nullptr, options.leastFraction()),
-      matrix_(system_) {}
+      steps_(system_) {}
 
 // The fine time of each cell over one second, in which reactions go as many times as fast as it has seconds.
-void FineStructureCells::react(std::span<const Cell> cells, std::span<const std::size_t> which) {
+template <typename FractionsOf>
+void FineStructureCells::react(ConstantPressureCells& reactor, const FractionsOf& fractionsOf) {
   const std::size_t n = system_.numSpecies();
-  reacted_.resize(which.size() * n);
-  inside_.resize(which.size());
-  found_.assign(which.size(), {});
-  for (std::size_t i = 0; i < which.size(); ++i) {
+  reacted_.resize(which_.size() * n);
+  inside_.resize(which_.size());
+  found_.assign(which_.size(), {});
+  for (std::size_t i = 0; i < which_.size(); ++i) {
     const std::span<double> Y = std::span(reacted_).subspan(i * n, n);
-    std::ranges::copy(cells[which[i]].Y, Y.begin());
-    inside_[i] = {now_[which[i]], Y, {}};
+    std::ranges::copy(fractionsOf(which_[i]), Y.begin());
+    inside_[i] = {now_[which_[i]], Y, {}};
     Gas& gas = inside_[i].gas;
     gas.heating = 0.0;
     gas.firstStep *= unitTime / gas.mixing.fineTime;
     gas.mixing = {gas.mixing.fineTime / unitTime, 0.0};
   }
   try {
-    plain_.advance(inside_, unitTime, found_);
+    reactor.advance(inside_, unitTime, found_);
   } catch (const ReactorFailure& error) {
-    throw ReactorFailure(error.what(), error.cell(), which[error.place()]);
+    throw ReactorFailure(error.what(), error.cell(), which_[error.place()]);
   } catch (const FailureInGroup& error) {
-    throw FailureInGroup(error.what(), which[error.place()]);
+    throw FailureInGroup(error.what(), which_[error.place()]);
   }
 }
 
@@ -93,7 +110,7 @@ void FineStructureCells::advance(std::span<const Cell> cells, double dt, std::sp
     for (std::size_t i = 0; i < cells.size(); ++i)
       if (part < parts_[i]) which_.push_back(i);
     if (which_.empty()) return;
-    react(cells, which_);
+    react(plain_, [&](std::size_t i) { return std::span<const double>(cells[i].Y); });
     for (std::size_t at = 0; at < which_.size(); ++at) {
       const std::size_t i = which_[at];
       Gas& gas = now_[i];
@@ -119,34 +136,47 @@ void FineStructureCells::advance(std::span<const Cell> cells, double dt, std::sp
   }
 }
 
-void FineStructureCells::rates(const Gas& gas, std::span<const double> Y, const Rates& rates) {
-  if (!(gas.mixing.fineTime > 0.0)) return plain_.rates(gas, Y, rates);
-  std::vector<double> at(Y.begin(), Y.end());
-  now_.assign(1, gas);
-  now_[0].enthalpy = thermo_.enthalpyMass(gas.temperature, Y);
-  now_[0].firstStep = 0.0;
-  const Cell cell{now_[0], at, {}};
-  constexpr std::size_t first = 0;
-  react({&cell, 1}, {&first, 1});
-  const double speed = gas.mixing.reactingShare / gas.mixing.fineTime;
-  for (std::size_t k = 0; k < Y.size(); ++k) rates.values[k] = speed * (reacted_[k] - Y[k]);
-  if (!rates.slopes.empty()) findSlopes(gas, reacted_, found_[0].temperature, rates.slopes);
+void FineStructureCells::rates(std::span<const Asked> cells) {
+  which_.clear();
+  now_.assign(cells.size(), {});
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (!(cells[i].gas.mixing.fineTime > 0.0)) {
+      plain_.rates(cells.subspan(i, 1));
+      continue;
+    }
+    which_.push_back(i);
+    now_[i] = cells[i].gas;
+    now_[i].enthalpy = thermo_.enthalpyMass(now_[i].temperature, cells[i].Y);
+    now_[i].firstStep = 0.0;
+  }
+  if (which_.empty()) return;
+  react(smooth_, [&](std::size_t i) { return cells[i].Y; });
+  const std::size_t n = system_.numSpecies();
+  for (std::size_t at = 0; at < which_.size(); ++at) {
+    const auto& [gas, Y, rates] = cells[which_[at]];
+    const std::span<const double> reacted(&reacted_[at * n], n);
+    const double speed = gas.mixing.reactingShare / gas.mixing.fineTime;
+    for (std::size_t k = 0; k < n; ++k) rates.values[k] = speed * (reacted[k] - Y[k]);
+    if (!rates.slopes.empty()) findSlopes(gas, Y, rates.slopes);
+  }
 }
 
-// Of Y* = Y + tau* w(Y*): (1 - tau* J)^-1 J, J of what has reacted.
-void FineStructureCells::findSlopes(const Gas& gas, std::span<const double> reacted, double temperature,
-                                    std::span<double> slopes) {
+// chi/tau* (d(Y*, T*)/d(Y, T) - 1).
+void FineStructureCells::findSlopes(const Gas& gas, std::span<const double> Y, std::span<double> slopes) {
   const std::size_t width = system_.size();
-  std::vector<double> y(reacted.begin(), reacted.end()), f(width);
-  y.push_back(temperature);
+  std::vector<double> y(Y.begin(), Y.end());
+  y.push_back(gas.temperature);
+  std::ranges::fill(slopes, 0.0);
+  for (std::size_t j = 0; j < width; ++j) slopes[j * width + j] = 1.0;
   system_.setConditions(gas.pressure, {});
-  if (!system_.jacobian(y.data(), f.data(), slopes.data(), width) || !matrix_.evaluate(system_, y.data(), f.data()))
-    throw NumericsError("the reactions have no rates: " + system_.refusal());
-  if (!matrix_.factorise(gas.mixing.fineTime)) throw NumericsError("the reactions of fine structures have no slopes");
+  ReactorIntegrator::Work work;
+  if (!steps_.advance({gas.mixing.fineTime, 0.0, toleranceOfSlopes, absoluteToleranceOfSlopes, mostStepsOfSlopes}, y,
+                      work, {}, slopes))
+    throw NumericsError("the reactions of fine structures have no slopes");
+  const double speed = gas.mixing.reactingShare / gas.mixing.fineTime;
   for (std::size_t j = 0; j < width; ++j) {
-    double* column = &slopes[j * width];
-    matrix_.solve(column);
-    for (std::size_t k = 0; k < width; ++k) column[k] *= gas.mixing.reactingShare;
+    slopes[j * width + j] -= 1.0;
+    for (std::size_t k = 0; k < width; ++k) slopes[j * width + k] *= speed;
   }
 }
 

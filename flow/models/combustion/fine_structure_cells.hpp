@@ -7,8 +7,8 @@
 
 #include <vector>
 
-#include "chemistry/reactor/newton_matrix.hpp"
 #include "chemistry/reactor/reactor_failure.hpp"
+#include "chemistry/reactor/reactor_rosenbrock.hpp"
 #include "core/modules.hpp"
 #include "flow/models/constant_pressure_cells.hpp"
 
@@ -22,18 +22,18 @@ class FineStructureCells final : public CellReactor {
   [[nodiscard]] std::size_t cellsTogether() const override { return plain_.cellsTogether(); }
   // A cell's first step is that of the reactor over the time of its structures.
   void advance(std::span<const Cell> cells, double dt, std::span<Result> results) override;
-  // The slopes are those of structures that react in one implicit step.
-  void rates(const Gas& gas, std::span<const double> Y, const Rates& rates) override;
+  void rates(std::span<const Asked> cells) override;
 
  private:
   void advancePlain(std::span<const Cell> cells, double dt, std::span<Result> results);
-  void react(std::span<const Cell> cells, std::span<const std::size_t> which);
-  void findSlopes(const Gas& gas, std::span<const double> reacted, double temperature, std::span<double> slopes);
+  template <typename FractionsOf>
+  void react(ConstantPressureCells& reactor, const FractionsOf& fractionsOf);
+  void findSlopes(const Gas& gas, std::span<const double> Y, std::span<double> slopes);
 
   const Thermo& thermo_;
-  ConstantPressureCells plain_;
+  ConstantPressureCells plain_, smooth_;  // the latter for rates of a state
   ReactorSystem system_;
-  NewtonMatrix matrix_;
+  ReactorRosenbrock steps_;         // of the slopes
   std::vector<std::size_t> which_;  // of the cells, those that have a part to go
   std::vector<int> parts_;          // of each of the cells
   std::vector<Gas> now_;            // of each of the cells, at the beginning of a part
