@@ -50,6 +50,14 @@ def check_inlets(folder):
     # Beyond the layer: fluctuations of 2.81 % along the stream, three quarters of that across; eddies of 4 mm.
     k = 0.5 * (1 + 2 * 0.75**2) * (0.0281 * 20) ** 2
     assert abs(stream[-1, 2] / k - 1) < 1e-4 and abs(stream[-1, 3] / (0.09**0.75 * k**1.5 / 4e-3) - 1) < 1e-4
+    # The same pipe's time of eddies, 1/(0.09 omega), in the measured velocity and energy of Sandia's flame D.
+    code, told, err = called("sandia_d_inlets", run, "--length", 2e-3, "--out", folder / "sandia_d")
+    assert code == 0 and "mean velocity of 51.2" in told, told + err
+    jet, pilot = (np.array(rows(folder / f"sandia_d/{name}.csv")) for name in ("jet", "pilot"))
+    assert len(jet) == 9 and jet[0, 1] == 62.9543 and abs(jet[0, 2] - 0.5 * (6.1283676 + 2 * 2.2074115)) < 1e-4 and jet[-1, 0] == 3.6
+    mean = float(told.split("velocity of ")[1].split()[0])
+    assert np.allclose(jet[:-1, 3], jet[:-1, 2] * 0.09 * 5e4 * mean / 50, rtol=1e-3), jet
+    assert len(pilot) == 11 and pilot[1, 1] == 11.4645 and np.allclose(pilot[:, 3], 0.09**0.75 * pilot[:, 2] ** 1.5 / 2e-3, rtol=1e-4), pilot
     code, _, err = called("bluff_body_inlets", write_run(folder / "laminar", r, r, lambda r, z: 294 + 0 * r), "--out", folder)
     assert code == 2 and "omega_root" in err, err
 
