@@ -114,10 +114,14 @@ void NewtonKrylov::takeInertia(const State& state, const State& start, std::span
 double NewtonKrylov::leftInTime(const State& state, const State& start) {
   find(state, leftInTime_);
   takeInertia(state, start, leftInTime_);
+  return sizeInTime();
+}
+
+double NewtonKrylov::sizeInTime() const {
   double sum = 0.0;
-  for (std::size_t i = 0; i < size_; ++i) sum += std::pow(rows_[i] * leftInTime_[i], 2);
+  for (std::size_t i = 0; i < size_; ++i) sum += std::abs(rows_[i] * leftInTime_[i]);
   MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
-  return std::sqrt(sum);
+  return sum;
 }
 
 void NewtonKrylov::move(State& state, double step, std::span<const double> along) const {
@@ -315,6 +319,7 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   baseMass_ = residual_.rates().mass;
   leftInTime_ = left_;
   if (start) takeInertia(state, *start, leftInTime_);
+  const double before = sizeInTime();
   {
     const PetscMutableValues values(rightSide_.get());
     for (std::size_t i = 0; i < size_; ++i) values.get()[i] = rows_[i] * leftInTime_[i];
@@ -322,6 +327,7 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   checkPetsc(KSPSetTolerances(solver_.get(), reduction, 1e-300, 1e10, krylov));
   exceptions_.run([&] { return KSPSolve(solver_.get(), rightSide_.get(), solution_.get()); });
   Result result;
+  result.before = before;
   PetscInt iterations = 0;
   checkPetsc(KSPGetIterationNumber(solver_.get(), &iterations));
   result.iterations = static_cast<int>(iterations);
@@ -329,7 +335,6 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   checkPetsc(KSPGetResidualNorm(solver_.get(), &norm));
   checkPetsc(VecNorm(rightSide_.get(), NORM_2, &of));
   result.reached = of > 0.0 ? norm / of : 0.0;
-  result.before = of;
   base_ = nullptr;
 
   const PetscValues values(solution_.get());

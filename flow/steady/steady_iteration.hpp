@@ -1,9 +1,9 @@
 // Iterations that bring a flow to its steady state, where nothing is left of its equations (FlowResidual): implicit in
 // a pseudo-time of every cell's own, which grows as the residual falls (switched evolution relaxation, Mulder and van
 // Leer 1985; Kelley and Keyes 1998). In each iteration species and temperature change together (GasUpdate), then
-// velocities and pressure for the new density (FlowUpdate), then what is carried (CarriedUpdate). Near the end gas and
-// flow change together, by Newton's method (NewtonKrylov). docs/theory/flow.md,
-// "The steady state".
+// velocities and pressure for the new density (FlowUpdate), then what is carried (CarriedUpdate). A flame in eddies
+// takes steps of one time for all cells (ImplicitStep) until it stands. Near the end gas and flow change together, by
+// Newton's method (NewtonKrylov). docs/theory/flow.md, "The steady state".
 #pragma once
 
 #include <optional>
