@@ -1,5 +1,7 @@
 #include "io/deck_keys.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 
