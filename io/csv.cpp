@@ -8,8 +8,33 @@
 namespace lampblack::io {
 namespace {
 
+bool isBlank(char c) {
+  return c == ' ' || c == '\t';
+}
+
+// What parts the fields of a table, by its line of names.
+char separatorOf(std::string_view text) {
+  bool quoted = false, comment = false, begins = true, hasSemicolon = false, hasTabulator = false;
+  for (const char c : text) {
+    if (c == '\n') {
+      if (!quoted && !comment && !begins) break;
+      comment = false;
+    } else if (begins && !quoted && c == '#') {
+      comment = true;
+    } else if (!comment) {
+      if (c == '"') quoted = !quoted;
+      if (!quoted && c == ',') return ',';
+      hasSemicolon = hasSemicolon || (!quoted && c == ';');
+      hasTabulator = hasTabulator || (!quoted && c == '\t');
+      begins = begins && (isBlank(c) || c == '\r');
+    }
+  }
+  return hasSemicolon ? ';' : hasTabulator ? '\t' : ',';
+}
+
 std::string quotedWhereNeeded(const std::string& field) {
-  if (field.find_first_of(",\"\n\r") == std::string::npos) return field;
+  const bool hasBlanksAround = !field.empty() && (isBlank(field.front()) || isBlank(field.back()));
+  if (!hasBlanksAround && field.find_first_of(",\"\n\r") == std::string::npos) return field;
   std::string text = "\"";
   for (const char c : field) text.append(c == '"' ? 2 : 1, c);
   return text + '"';
@@ -53,12 +78,19 @@ TextTable readCsv(const std::string& text) {
   TextTable table;
   std::vector<std::string> row;
   std::string field;
-  bool quoted = false, comment = false;
+  bool quoted = false, comment = false, hadQuotes = false;
   std::size_t line = 1, begins = 1;
-  const auto endRow = [&] {
-    if (row.empty() && field.empty()) return;
+  const std::size_t start = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
+  const char separator = separatorOf(std::string_view(text).substr(start));
+  const auto endField = [&] {
+    while (!hadQuotes && !field.empty() && isBlank(field.back())) field.pop_back();
     row.push_back(std::move(field));
     field.clear();
+    hadQuotes = false;
+  };
+  const auto endRow = [&] {
+    if (row.empty() && field.empty()) return;
+    endField();
     if (table.columns.empty()) {
       table.columns = row;
     } else if (row.size() != table.columns.size()) {
@@ -70,7 +102,7 @@ TextTable readCsv(const std::string& text) {
     }
     row.clear();
   };
-  for (std::size_t i = text.starts_with("\xef\xbb\xbf") ? 3 : 0; i < text.size(); ++i) {
+  for (std::size_t i = start; i < text.size(); ++i) {
     const char c = text[i];
     if (row.empty() && field.empty() && !quoted) begins = line;
     if (c == '\n') ++line;
@@ -84,10 +116,11 @@ TextTable readCsv(const std::string& text) {
       else
         quoted = false;
     } else if (c == '"') {
-      quoted = true;
-    } else if (c == ',') {
-      row.push_back(std::move(field));
-      field.clear();
+      quoted = hadQuotes = true;
+    } else if (c == separator) {
+      endField();
+    } else if (isBlank(c) && (field.empty() || hadQuotes)) {
+      continue;
     } else if (c == '\n') {
       endRow();
     } else if (c == '#' && row.empty() && field.empty()) {

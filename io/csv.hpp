@@ -28,8 +28,9 @@ std::string csvText(const TextTable& table);
 std::string csvRows(std::span<const double> rows, std::size_t width);
 std::string csvTable(const std::vector<Quantity>& columns, std::span<const double> rows);
 
-// Lines that begin with # and a byte-order mark are skipped. InputError where a row has another number of fields than
-// the first line.
+// Lines that begin with # and a byte-order mark are skipped, as are blanks around a field that does not stand in
+// quotes. Where the first line has no comma, semicolons or else tabulators part the fields, as spreadsheets write them.
+// InputError where a row has another number of fields than the first line.
 TextTable readCsv(const std::string& text);
 
 }  // namespace lampblack::io

@@ -11,7 +11,7 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
-#include "io/table_column.hpp"
+#include "io/table_columns.hpp"
 
 namespace lampblack::io {
 
@@ -22,17 +22,15 @@ GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> 
   Numbers numbers;
   numbers.places.resize(coordinates_.size());
   try {
-    for (std::size_t column = 0; column < table.columns.size(); ++column) {
-      const auto [name, unit] = nameAndUnit(table.columns[column]);
+    const TableColumns columns(table);
+    for (std::size_t column = 0; column < columns.size(); ++column) {
+      const std::string& name = columns.name(column);
       const auto coordinate =
           std::ranges::find_if(coordinates_, [&](const Coordinate& known) { return known.name == name; });
       const bool isCoordinate = coordinate != coordinates_.end();
       const auto dimension = isCoordinate ? coordinate->dimension : dimensionOf(name);
       if (!dimension) continue;
-      const TableColumn reader(name, unit, *dimension);
-      std::vector<double> values;
-      for (std::size_t row = 0; row < table.rows.size(); ++row)
-        values.push_back(reader.read(table.rows[row][column], table.lines[row]));
+      std::vector<double> values = columns.read(column, *dimension);
       if (isCoordinate) {
         numbers.places[static_cast<std::size_t>(coordinate - coordinates_.begin())] = std::move(values);
       } else {
@@ -40,7 +38,7 @@ GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> 
         numbers.columns.push_back(std::move(values));
       }
     }
-    build(numbers);
+    build(numbers, fmt::format("; found {}", columns.listed()));
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
@@ -51,10 +49,10 @@ GridTable::GridTable(std::vector<Coordinate> coordinates, const Numbers& numbers
   build(numbers);
 }
 
-void GridTable::build(const Numbers& numbers) {
+void GridTable::build(const Numbers& numbers, const std::string& there) {
   if (coordinates_.size() > maxCoordinates) throw std::logic_error("GridTable: too many coordinates");
   names_ = numbers.names;
-  if (names_.empty()) throw InputError("no column has a name that counts here");
+  if (names_.empty()) throw InputError("no column has a name that counts here" + there);
   const std::size_t rows = numbers.columns[0].size();
   if (rows == 0) throw InputError("the table has no rows");
 
@@ -70,7 +68,7 @@ void GridTable::build(const Numbers& numbers) {
   if (axes_.empty()) {
     std::vector<std::string> known;
     for (const Coordinate& coordinate : coordinates_) known.push_back(coordinate.name);
-    throw InputError(fmt::format("expected a column of one of: {}", fmt::join(known, ", ")));
+    throw InputError(fmt::format("expected a column of one of: {}{}", fmt::join(known, ", "), there));
   }
   if (points != rows)
     throw InputError(fmt::format(

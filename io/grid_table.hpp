@@ -52,7 +52,7 @@ class GridTable {
     std::size_t coordinate;  // its place among the coordinates
     std::vector<double> points;
   };
-  void build(const Numbers& numbers);
+  void build(const Numbers& numbers, const std::string& there = {});  // `there`: for messages, the columns there are
 
   std::vector<Coordinate> coordinates_;
   std::vector<Axis> axes_;

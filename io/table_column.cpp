@@ -54,7 +54,8 @@ double TableColumn::read(const std::string& field, std::size_t line) const {
   try {
     return inSI(units::parseNumber(field));
   } catch (const InputError&) {
-    throw InputError(fmt::format("line {}: expected a finite number as '{}', found '{}'", line, name_, field));
+    throw InputError(fmt::format("line {}: expected a finite number as '{}', found '{}'{}", line, name_, field,
+                                 field.find(',') == std::string::npos ? "" : "; numbers have a decimal point"));
   }
 }
 

@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <set>
 
 #include "core/constants.hpp"
 #include "core/errors.hpp"
-#include "core/letter_case.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
 #include "io/deck_keys.hpp"
-#include "io/table_column.hpp"
+#include "io/table_columns.hpp"
 #include "particles/population/exact_solutions/initial_distribution.hpp"
 
 namespace lampblack::app {
@@ -26,54 +24,19 @@ double sphereVolume(double diameter) {
   return constants::pi / 6 * diameter * diameter * diameter;
 }
 
-// A column of a table by one of its names.
-class Columns {
- public:
-  explicit Columns(const TextTable& table) : table_(table) {
-    for (const std::string& header : table.columns) {
-      auto [name, unit] = nameAndUnit(header);
-      names_.push_back(lowerCase(name));
-      units_.push_back(std::move(unit));
-    }
+// Volumes of particles (m3), given as such or by diameters.
+std::vector<double> readVolumes(const TextTable& table, const TableColumns& columns, std::size_t column) {
+  const std::string& unit = columns.unit(column);
+  const bool isVolume = !unit.empty() && unit != "1" && units::parseUnit(unit).dimension == units::volume;
+  std::vector<double> sizes = columns.read(column, isVolume ? units::volume : units::length);
+  for (std::size_t row = 0; row < sizes.size(); ++row) {
+    if (!(sizes[row] > 0))
+      throw InputError(
+          fmt::format("line {}: expected a size above zero as '{}'", table.lines[row], columns.name(column)));
+    if (!isVolume) sizes[row] = sphereVolume(sizes[row]);
   }
-
-  [[nodiscard]] std::optional<std::size_t> find(const std::set<std::string>& names) const {
-    std::optional<std::size_t> found;
-    for (std::size_t i = 0; i < names_.size(); ++i) {
-      if (!names.contains(names_[i])) continue;
-      if (found)
-        throw InputError(fmt::format("two columns say the same, '{}' and '{}'; leave one out", table_.columns[*found],
-                                     table_.columns[i]));
-      found = i;
-    }
-    return found;
-  }
-
-  [[nodiscard]] std::vector<double> read(std::size_t column, const units::Dimension& dimension) const {
-    const TableColumn reader(names_[column], units_[column], dimension);
-    std::vector<double> values;
-    for (std::size_t row = 0; row < table_.rows.size(); ++row)
-      values.push_back(reader.read(table_.rows[row][column], table_.lines[row]));
-    return values;
-  }
-
-  // Volumes of particles (m3), given as such or by diameters.
-  [[nodiscard]] std::vector<double> readVolumes(std::size_t column) const {
-    const bool isVolume =
-        !units_[column].empty() && units_[column] != "1" && units::parseUnit(units_[column]).dimension == units::volume;
-    std::vector<double> sizes = read(column, isVolume ? units::volume : units::length);
-    for (std::size_t row = 0; row < sizes.size(); ++row) {
-      if (!(sizes[row] > 0))
-        throw InputError(fmt::format("line {}: expected a size above zero as '{}'", table_.lines[row], names_[column]));
-      if (!isVolume) sizes[row] = sphereVolume(sizes[row]);
-    }
-    return sizes;
-  }
-
- private:
-  const TextTable& table_;
-  std::vector<std::string> names_, units_;
-};
+  return sizes;
+}
 
 // The interval of each size reaches half-way, by the logarithm, to its neighbours, at the ends as far to the other
 // side. `unit`: by how much the coordinate of the densities grows where the volume grows by the factor e.
@@ -94,9 +57,9 @@ std::vector<SizeInterval> intervalsAround(std::vector<std::pair<double, double>>
 }
 
 InitialPopulation populationOfTable(const TextTable& table) {
-  const Columns columns(table);
+  const TableColumns columns(table);
   const auto from = columns.find({"from"}), to = columns.find({"to"}), number = columns.find({"number"});
-  const auto size = columns.find({"diameter", "d", "dp", "volume", "v"});
+  const auto size = columns.find({"diameter", "d", "D", "dp", "volume", "v", "V"});
   const auto decadic = columns.find({"dn/dlogd", "dn/dlogdp", "dn/dlog10d", "dn/dlog10dp", "dn/dlog(d)", "dn/dlog(dp)",
                                      "dn/dlog10(d)", "dn/dlog10(dp)"});
   const auto natural = columns.find({"dn/dlnd", "dn/dlndp", "dn/dln(d)", "dn/dln(dp)"});
@@ -110,13 +73,13 @@ InitialPopulation populationOfTable(const TextTable& table) {
   if (table.rows.empty()) throw InputError("the table has no rows");
   std::vector<SizeInterval> intervals;
   if (isBinned) {
-    const auto lower = columns.readVolumes(*from), upper = columns.readVolumes(*to);
+    const auto lower = readVolumes(table, columns, *from), upper = readVolumes(table, columns, *to);
     const auto numbers = columns.read(*number, units::perVolume);
     for (std::size_t row = 0; row < lower.size(); ++row) intervals.push_back({lower[row], upper[row], numbers[row]});
     std::ranges::sort(intervals, {}, &SizeInterval::from);
     return tabulated(std::move(intervals));
   }
-  const auto volumes = columns.readVolumes(*size);
+  const auto volumes = readVolumes(table, columns, *size);
   const auto values = columns.read(decadic ? *decadic : *natural, units::perVolume);
   std::vector<std::pair<double, double>> rows;
   for (std::size_t row = 0; row < volumes.size(); ++row) rows.emplace_back(volumes[row], values[row]);

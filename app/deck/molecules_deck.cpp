@@ -21,7 +21,7 @@
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
 #include "io/deck_keys.hpp"
-#include "io/table_column.hpp"
+#include "io/table_columns.hpp"
 #include "particles/pah/molecule.hpp"
 #include "particles/pah/named_molecules.hpp"
 
@@ -98,25 +98,20 @@ DeckKeys<MoleculeOptions> collisionKeys() {
 void readStickingTable(const std::filesystem::path& file, MoleculeSticking& sticking) {
   const TextTable table = readCsv(readTextFile(file, "a table of sticking"));
   std::map<std::pair<double, double>, double> found;
-  struct Column {
-    const char* name;
-    units::Dimension dimension;
-    std::size_t at = 0;
-  };
-  Column columns[] = {
-      {"temperature", units::temperature}, {"carbon", units::dimensionless}, {"probability", units::dimensionless}};
-  std::vector<TableColumn> readers;
-  for (Column& one : columns) {
-    const auto at = std::ranges::find(table.columns, one.name, [](const auto& c) { return nameAndUnit(c).first; });
-    if (at == table.columns.end()) throw InputError(fmt::format("{}: expected a column '{}'", file.string(), one.name));
-    one.at = static_cast<std::size_t>(at - table.columns.begin());
-    readers.emplace_back(one.name, nameAndUnit(*at).second, one.dimension);
-  }
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const auto value = [&](std::size_t c) { return readers[c].read(table.rows[row][columns[c].at], table.lines[row]); };
-    if (!found.try_emplace({value(0), value(1)}, value(2)).second)
-      throw InputError(
-          fmt::format("{}: line {}: a second row of this temperature and carbon", file.string(), table.lines[row]));
+  try {
+    const TableColumns columns(table);
+    const auto read = [&](const char* name, const units::Dimension& dimension) {
+      const auto column = columns.find({name});
+      if (!column) throw InputError(fmt::format("expected a column '{}'; found {}", name, columns.listed()));
+      return columns.read(*column, dimension);
+    };
+    const auto temperature = read("temperature", units::temperature), carbon = read("carbon", units::dimensionless);
+    const auto probability = read("probability", units::dimensionless);
+    for (std::size_t row = 0; row < table.rows.size(); ++row)
+      if (!found.try_emplace({temperature[row], carbon[row]}, probability[row]).second)
+        throw InputError(fmt::format("line {}: a second row of this temperature and carbon", table.lines[row]));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", file.string(), error.what()));
   }
   std::set<double> temperatures, carbons;
   for (const auto& [at, probability] : found) {

@@ -21,22 +21,22 @@ std::string trimmed(const std::string& line) {
   return line.substr(0, line.find('\r'));
 }
 
-// The fields of a line, without the blanks and quotes around them: between commas, or between blanks where there are
-// none.
-std::vector<std::string> fieldsOf(std::string line) {
-  const bool commas = line.find(',') != std::string::npos;
+// The fields of a line, without the blanks and quotes around them: between semicolons, commas where there are none, or
+// blanks where there are neither.
+std::vector<std::string> fieldsOf(const std::string& line) {
+  const char separator = line.find(';') != std::string::npos ? ';' : line.find(',') != std::string::npos ? ',' : ' ';
   std::vector<std::string> fields(1);
   bool quoted = false;
   for (const char c : line) {
     const bool blank = c == ' ' || c == '\t' || c == '\r';
     if (c == '"')
       quoted = !quoted;
-    else if (!quoted && (commas ? c == ',' : blank))
+    else if (!quoted && (separator == ' ' ? blank : c == separator))
       fields.emplace_back();
     else if (quoted || !blank)
       fields.back() += c;
   }
-  if (!commas) std::erase(fields, "");
+  if (separator == ' ') std::erase(fields, "");
   return fields;
 }
 
@@ -120,7 +120,10 @@ TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimens
     }
     auto point = numberIn(fields[0]), value = fields.size() == 2 ? numberIn(fields[1]) : std::nullopt;
     if (!point || !value || !std::isfinite(*point) || !std::isfinite(*value))
-      refuse(fmt::format("expected two numbers, found '{}'", trimmed(line)));
+      refuse(fmt::format("expected two numbers, found '{}'{}", trimmed(line),
+                         line.find(';') != std::string::npos && line.find(',') != std::string::npos
+                             ? "; numbers have a decimal point"
+                             : ""));
     point = pointColumn.inSI(*point);
     value = valueColumn.inSI(*value);
     if (!points.empty() && !(*point > points.back()))

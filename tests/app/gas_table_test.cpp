@@ -54,6 +54,17 @@ TEST(GasTable, ColumnsMayStandInAnyOrderAndUnit) {
   EXPECT_EQ(sum, 2);  // none else
 }
 
+// As other programs and spreadsheets write them.
+TEST(GasTable, NamesMayBeInAnyCaseAndPressureIsAlsoP) {
+  const std::string rows = "0,300,1,1\n1,400,2,1\n";
+  for (const std::string names : {"Time[s],T[K],P[bar],X_H2", "TIME, Temperature, P [bar], X_H2"}) {
+    const GasHistory gas = historyOf(names + "\n" + rows);
+    EXPECT_EQ(gas.time, (std::vector<double>{0, 1})) << names;
+    EXPECT_EQ(gas.temperature, (std::vector<double>{300, 400})) << names;
+    EXPECT_NEAR(gas.pressure[1], 2e5, 1e-9) << names;
+  }
+}
+
 // The rate stands between a row and the next; the column may have its former name, with a note by the first rank.
 TEST(GasTable, HasTheNumberLossRateByEitherName) {
   for (const bool isFormer : {false, true}) {
@@ -67,7 +78,7 @@ TEST(GasTable, HasTheNumberLossRateByEitherName) {
         << told;
   }
   EXPECT_THAT(refusalOf("t,T,p,X_H2,thinning,number_loss_rate\n0,300,1e5,1,2,2\n"),
-              HasSubstr("two columns are the number_loss_rate ('number_loss_rate' or 'thinning'); leave one out"));
+              HasSubstr("two columns say the same, 'thinning' and 'number_loss_rate'; leave one out"));
 }
 
 TEST(GasTable, SaysWhatIsMissingOrWrong) {
@@ -75,12 +86,14 @@ TEST(GasTable, SaysWhatIsMissingOrWrong) {
   EXPECT_THAT(refusalOf("t,p,X_H2\n0,1e5,1\n"),
               HasSubstr("expected a column 'temperature' or 'T', as \"temperature [K]\""));
   EXPECT_THAT(refusalOf("t,T,X_H2\n0,300,1\n"), HasSubstr("as \"pressure [Pa]\""));
-  EXPECT_THAT(refusalOf("t,T,p,H2\n0,300,1e5,1\n"), HasSubstr("expected columns of mole fractions"));
+  EXPECT_THAT(refusalOf("t,T,p,Y_H2 [1]\n0,300,1e5,1\n"),
+              HasSubstr("of species that the mechanism has; found 't', 'T', 'p', 'Y_H2 [1]'"));
+  EXPECT_THAT(refusalOf("t,p,X_H2,t\n0,1e5,1,1\n"), HasSubstr("two columns say the same, 't' and 't'"));
   EXPECT_THAT(refusalOf("t,T,p,X_KRYPTON\n0,300,1e5,1\n"), HasSubstr("expected columns of mole fractions"));
   EXPECT_THAT(refusalOf("t [m],T,p,X_H2\n0,300,1e5,1\n"), HasSubstr("'t' is in m"));
   EXPECT_THAT(refusalOf("t,T,p,X_H2\n0,300,1e5,much\n"), HasSubstr("line 2: expected a finite number as 'X_H2'"));
   EXPECT_THAT(refusalOf("t,T,p,X_H2\n0,300,1e5\n"), HasSubstr("gas.csv"));
-  EXPECT_THAT(refusalOf("t,time,T,p,X_H2\n0,0,300,1e5,1\n"), HasSubstr("two columns are the time"));
+  EXPECT_THAT(refusalOf("t,time,T,p,X_H2\n0,0,300,1e5,1\n"), HasSubstr("two columns say the same, 't' and 'time'"));
   EXPECT_THAT(refusalOf("t,T,p,X_H2,X_H2\n0,300,1e5,1,1\n"), HasSubstr("two columns are called 'X_H2'"));
   EXPECT_THAT(refusalOf("t,T,p,X_H2\n"), HasSubstr("no rows"));
 }

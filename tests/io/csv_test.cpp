@@ -31,6 +31,21 @@ TEST(Csv, AByteOrderMarkIsNoPartOfTheFirstName) {
             (std::vector<std::string>{"a", "b"}));
 }
 
+// As spreadsheets and people write tables; blanks in quotes are the field's.
+TEST(Csv, SemicolonsTabulatorsAndBlanksAroundFields) {
+  for (const std::string text : {"time [s], X_C2H2\n0 ,1\n2, 3\n", "time [s];X_C2H2\r\n0;1\r\n2;3\r\n",
+                                 "# a, b\n\n \"time [s]\" ; X_C2H2\n0;1\n  \n2;3", "time [s]\tX_C2H2\n0\t1\n2\t 3\n"}) {
+    const TextTable table = readCsv(text);
+    EXPECT_EQ(table.columns, (std::vector<std::string>{"time [s]", "X_C2H2"})) << text;
+    EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"0", "1"}, {"2", "3"}})) << text;
+  }
+  EXPECT_EQ(readCsv("a,b;c\n1,2;3\n").rows[0], (std::vector<std::string>{"1", "2;3"})) << "a comma parts alone";
+  EXPECT_EQ(readCsv("\"a,b\";c\n1,5;2\n").rows[0], (std::vector<std::string>{"1,5", "2"})) << "but not in quotes";
+  EXPECT_EQ(readCsv("a\tb\n\t2\n").rows[0], (std::vector<std::string>{"", "2"}));
+  const TextTable blanks{{"a"}, {{" b "}}};
+  EXPECT_EQ(readCsv(csvText(blanks)).rows, blanks.rows);
+}
+
 TEST(Csv, TheHeaderOfAHistoryHasAsManyFieldsAsItsRows) {
   const test::ScratchFolder folder;
   const auto path = folder.path() / "history.csv";

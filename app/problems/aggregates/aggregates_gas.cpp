@@ -10,7 +10,7 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
-#include "io/table_column.hpp"
+#include "io/table_columns.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -28,27 +28,28 @@ void readColumns(const TextTable& table, AggregatesGas& gas) {
                          {"pressure", units::pressure, &gas.pressure, 0, 0},
                          {"births", units::ratePerVolume, &gas.births, any, 0},
                          {"growth", units::velocity, &gas.growth, any, 0}};
-  for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    const auto [name, unit] = nameAndUnit(table.columns[column]);
-    const auto* one = std::ranges::find(known, name, [](const Known& k) { return std::string(k.name); });
+  const TableColumns columns(table);
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    const std::string& name = columns.name(column);
+    const auto* one = std::ranges::find_if(known, [&](const Known& k) { return isColumnName(name, k.name); });
     if (one == std::end(known))
       throw InputError(
           fmt::format("the column '{}' has no meaning here; there are time, temperature, pressure, births "
                       "and growth",
                       name));
     if (!one->values->empty()) throw InputError(fmt::format("two columns are called '{}'", name));
-    const TableColumn reader(name, unit, one->dimension);
+    *one->values = columns.read(column, one->dimension);
     for (std::size_t row = 0; row < table.rows.size(); ++row) {
-      const double value = reader.read(table.rows[row][column], table.lines[row]);
+      const double value = (*one->values)[row];
       if (!(value > one->above) || !(value >= one->atLeast))
         throw InputError(fmt::format("line {}: '{}' has to be {} zero", table.lines[row], name,
                                      one->above == 0 ? "above" : "at least"));
-      one->values->push_back(value);
     }
   }
   for (const Known& one : known) {
     const bool isNeeded = one.values != &gas.births && one.values != &gas.growth;
-    if (one.values->empty() && isNeeded) throw InputError(fmt::format("expected a column '{}'", one.name));
+    if (one.values->empty() && isNeeded)
+      throw InputError(fmt::format("expected a column '{}'; found {}", one.name, columns.listed()));
     if (one.values->empty()) one.values->assign(table.rows.size(), 0);
   }
   for (std::size_t row = 1; row < gas.time.size(); ++row)

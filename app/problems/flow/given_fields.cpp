@@ -32,6 +32,11 @@ std::vector<std::string> namesOf(const GivenFields::Names& names) {
   return known;
 }
 
+InputError notGivenHere(const std::string& name, const GivenFields::Names& names) {
+  return InputError(fmt::format("'{}' cannot be given here; expected one of: {}, or X_ and the name of a species{}",
+                                name, fmt::join(namesOf(names), ", "), didYouMean(name, namesOf(names))));
+}
+
 }  // namespace
 
 void addGivenFieldKeys(DeckSchema& schema, const std::string& section, const std::string& names) {
@@ -74,8 +79,10 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
   const std::string key = section + ".table";
   if (!deck.has(key)) return;
   const auto dimensionOf = [&](const std::string& name) -> std::optional<units::Dimension> {
+    if (name.starts_with(moleFraction)) return units::dimensionless;
     const auto known = names.find(name);
-    return known == names.end() ? units::dimensionless : known->second;
+    if (known == names.end()) throw notGivenHere(name, names);
+    return known->second;
   };
   deck.at(key, [&] {
     std::vector<GridTable::Coordinate> coordinates;
@@ -98,10 +105,7 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
 void GivenFields::sortOut(const Deck& deck, const Names& names, const Mechanism& mechanism) {
   for (const auto& [name, field] : fields_) {
     if (names.contains(name)) continue;
-    if (!name.starts_with(moleFraction))
-      throw deck.error(field.key, fmt::format("'{}' cannot be given here; expected one of: {}, or X_ and the name of a "
-                                              "species{}",
-                                              name, fmt::join(namesOf(names), ", "), didYouMean(name, namesOf(names))));
+    if (!name.starts_with(moleFraction)) throw deck.error(field.key, notGivenHere(name, names).what());
     const std::string species = name.substr(moleFraction.size());
     const auto number = mechanism.findSpecies(species);
     if (!number) throw deck.error(field.key, fmt::format("the mechanism has no species '{}'", species));

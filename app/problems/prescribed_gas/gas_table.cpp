@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,46 +14,42 @@
 #include "io/csv.hpp"
 #include "io/deck_former_names.hpp"
 #include "io/table_column.hpp"
+#include "io/table_columns.hpp"
 
 namespace lampblack::app {
 namespace {
 
 struct Known {
-  const char *name, *symbol;
+  const char *name, *symbol, *otherSymbol;
   units::Dimension dimension;
   std::vector<double> GasHistory::*values;
   bool isNeeded = true;
 };
 
-std::vector<double> read(const TextTable& table, std::size_t column, const TableColumn& reader) {
-  std::vector<double> values;
-  for (std::size_t row = 0; row < table.rows.size(); ++row)
-    values.push_back(reader.read(table.rows[row][column], table.lines[row]));
-  return values;
-}
-
 constexpr const char* formerLossRate = "thinning";  // of the column number_loss_rate
 
 GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::vector<std::string>& unknown) {
-  const Known known[] = {{"time", "t", units::time, &GasHistory::time},
-                         {"temperature", "T", units::temperature, &GasHistory::temperature},
-                         {"pressure", "p", units::pressure, &GasHistory::pressure},
-                         {"number_loss_rate", formerLossRate, units::frequency, &GasHistory::numberLossRate, false}};
+  const Known known[] = {
+      {"time", "t", "t", units::time, &GasHistory::time},
+      {"temperature", "T", "T", units::temperature, &GasHistory::temperature},
+      {"pressure", "p", "P", units::pressure, &GasHistory::pressure},
+      {"number_loss_rate", formerLossRate, formerLossRate, units::frequency, &GasHistory::numberLossRate, false}};
+  const TableColumns columns(table);
   GasHistory history;
   const std::size_t rows = table.rows.size(), species = mechanism.numSpecies();
   if (rows == 0) throw InputError("the table has no rows");
+  for (const Known& one : known) {
+    const auto column = columns.find({one.name, one.symbol, one.otherSymbol});
+    if (column)
+      history.*one.values = columns.read(*column, one.dimension);
+    else if (one.isNeeded)
+      throw InputError(fmt::format("expected a column '{}' or '{}', as \"{} [{}]\"; found {}", one.name, one.symbol,
+                                   one.name, units::siUnit(one.dimension), columns.listed()));
+  }
   history.fractions.assign(rows * species, 0.0);
   std::vector<bool> has(species, false);
-  bool hasAny = false;
-  for (std::size_t column = 0; column < table.columns.size(); ++column) {
-    const auto [name, unit] = nameAndUnit(table.columns[column]);
-    for (const Known& one : known) {
-      if (name != one.name && name != one.symbol) continue;
-      if (!(history.*one.values).empty())
-        throw InputError(
-            fmt::format("two columns are the {} ('{}' or '{}'); leave one out", one.name, one.name, one.symbol));
-      history.*one.values = read(table, column, TableColumn(name, unit, one.dimension));
-    }
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    const std::string& name = columns.name(column);
     if (!name.starts_with("X_")) continue;
     const auto k = mechanism.findSpecies(name.substr(2));
     if (!k) {
@@ -60,16 +57,15 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
       continue;
     }
     if (has[*k]) throw InputError(fmt::format("two columns are called '{}'", name));
-    hasAny = has[*k] = true;
-    const std::vector<double> values = read(table, column, TableColumn(name, unit, units::dimensionless));
+    has[*k] = true;
+    const std::vector<double> values = columns.read(column, units::dimensionless);
     for (std::size_t row = 0; row < rows; ++row) history.fractions[row * species + *k] = values[row];
   }
-  for (const Known& one : known)
-    if (one.isNeeded && (history.*one.values).empty())
-      throw InputError(fmt::format("expected a column '{}' or '{}', as \"{} [{}]\"", one.name, one.symbol, one.name,
-                                   one.name[0] == 't' ? (one.symbol[0] == 't' ? "s" : "K") : "Pa"));
+  if (std::ranges::find(has, true) == has.end())
+    throw InputError(
+        fmt::format("expected columns of mole fractions, \"X_H2 [1]\", of species that the mechanism has; found {}",
+                    columns.listed()));
   if (!history.numberLossRate.empty()) history.numberLossRate.pop_back();  // behind the last row there is nothing
-  if (!hasAny) throw InputError("expected columns of mole fractions, \"X_H2 [1]\", of species that the mechanism has");
   return history;
 }
 
