@@ -11,6 +11,7 @@
 #include "core/nearest_name.hpp"
 #include "io/deck_conditions.hpp"
 #include "io/deck_former_names.hpp"
+#include "io/deck_hints.hpp"
 #include "io/deck_mistakes.hpp"
 #include "io/deck_value.hpp"
 
@@ -64,18 +65,6 @@ class Checker {
     }
   }
 
-  // What other programs and papers call a key; the nearest name would be another one ('mass_fractions').
-  static std::string byOtherName(std::string_view name, const std::vector<std::string>& here) {
-    using Names = std::pair<std::string_view, std::string_view>;
-    for (const auto& [other, key] :
-         {Names("mole_fractions", "composition"), Names("X", "composition"), Names("Y", "mass_fractions"),
-          Names("reactants", "composition"), Names("phi", "equivalence_ratio"), Names("T", "temperature"),
-          Names("p", "pressure"), Names("P", "pressure"), Names("composition", "mole_fractions"),
-          Names("gas", "charge")})
-      if (name == other && std::ranges::find(here, key) != here.end()) return fmt::format("; did you mean '{}'?", key);
-    return {};
-  }
-
   // Of a section that this kind of deck has not: the one section here that has all of its keys.
   std::string whereChildrenStand(const DeckNode& section) const {
     std::string found;
@@ -95,26 +84,39 @@ class Checker {
     return found.empty() ? "" : fmt::format("; did you mean '{}'?", found);
   }
 
+  // Keys of this name that sections in this section have.
+  static std::vector<std::string> ofParts(const SchemaNode& schema, const std::string& name) {
+    std::vector<std::string> paths;
+    for (const SchemaNode& part : schema.children)
+      if (const SchemaNode* key = part.name.find_first_of("*[") == std::string::npos ? part.child(name) : nullptr;
+          key != nullptr && key->key != nullptr && !schema.path.empty())
+        paths.push_back(key->path);
+    return paths.size() > 3 ? std::vector<std::string>() : paths;
+  }
+
+  // Perhaps a key is right elsewhere.
+  std::string ofElsewhere(const std::string& name) const {
+    std::vector<std::string> paths;
+    for (const DeckKey& key : schema_.keys()) {
+      if (key.path == name) return fmt::format("; '{}' stands at the top of the deck, not in a section.", key.path);
+      const bool isFormer = std::ranges::find(key.formerNames, name) != key.formerNames.end();
+      if ((key.path.ends_with("." + name) || isFormer) && paths.size() < 3) paths.push_back(key.path);
+    }
+    return didYouMeanOneOf(paths);
+  }
+
   InputError unknown(const SchemaNode& schema, const DeckNode& node, const std::string& path) const {
     std::vector<std::string> here;
     for (const SchemaNode& child : schema.children)
       if (child.name != "[]") here.push_back(child.name);
     std::string hint = byOtherName(node.name, here);
+    if (hint.empty() && node.name.find(':') != std::string::npos)
+      hint = "; a text with a comma in it stands in quotes, \"H2: 2, O2: 1\".";
+    if (hint.empty()) hint = didYouMeanOneOf(ofParts(schema, node.name));
     if (hint.empty()) hint = didYouMean(node.name, here);
     if (const std::string present = presentName(schema, node.name); hint.empty() && !present.empty())
       hint = fmt::format("; did you mean '{}'?", present);
-    if (hint.empty()) {  // perhaps it is right elsewhere
-      for (const DeckKey& key : schema_.keys()) {
-        const bool isFormer =
-            std::find(key.formerNames.begin(), key.formerNames.end(), node.name) != key.formerNames.end();
-        if (key.path.ends_with("." + node.name) || key.path == node.name || isFormer) {
-          hint = key.path == node.name
-                     ? fmt::format("; '{}' stands at the top of the deck, not in a section.", key.path)
-                     : fmt::format("; did you mean '{}'?", key.path);
-          break;
-        }
-      }
-    }
+    if (hint.empty()) hint = ofElsewhere(node.name);
     if (hint.empty())
       if (const std::string similar = nameOfSameWords(node.name, here); !similar.empty())
         hint = fmt::format("; did you mean '{}'?", similar);
@@ -163,9 +165,7 @@ class Checker {
       return;
     }
     if (!empty && node->kind != DeckNode::Kind::map)
-      return addWrongKind((schema.child("[]") == nullptr ? "a map of keys" : "a map of keys or a list of such maps") +
-                              meantChoice(schema, *node),
-                          *node, path);
+      return addWrongKind(ofSection(schema) + asSection(source_, schema, *node), *node, path);
     for (const SchemaNode& child : schema.children) {
       if (child.name == "[]") continue;
       if (child.name != "*") {
@@ -180,13 +180,12 @@ class Checker {
     }
   }
 
-  // Where a word stands in place of a section that has the choice of it.
-  [[nodiscard]] static std::string meantChoice(const SchemaNode& section, const DeckNode& node) {
-    if (node.kind != DeckNode::Kind::scalar) return "";
-    for (const SchemaNode& child : section.children)
-      if (child.key != nullptr && std::ranges::find(child.key->choices, node.text) != child.key->choices.end())
-        return fmt::format(", such as {{{}: {}}}", child.name, node.text);
-    return "";
+  // What a section with names of the user's own expects of its kind.
+  [[nodiscard]] static std::string ofSection(const SchemaNode& section) {
+    if (section.child("[]") != nullptr) return "a map of keys or a list of such maps";
+    const SchemaNode* any = section.child("*");
+    if (any == nullptr || any->children.empty()) return "a map of keys";
+    return fmt::format("a map of names, each with its keys, 'NAME: {{{}: ...}}'", any->children.front().name);
   }
 
   void addWrongKind(const std::string& expected, const DeckNode& node, const std::string& path) {

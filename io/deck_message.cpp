@@ -6,7 +6,6 @@
 #include "io/deck_node.hpp"
 
 namespace lampblack::io {
-namespace {
 
 std::string lineOf(const std::string& text, int line) {
   std::size_t start = 0;
@@ -19,6 +18,8 @@ std::string lineOf(const std::string& text, int line) {
   if (!found.empty() && found.back() == '\r') found.pop_back();
   return found;
 }
+
+namespace {
 
 bool continuesCharacter(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;

@@ -12,6 +12,8 @@
 #include <sstream>
 #include <unordered_map>
 
+#include "io/deck_hints.hpp"
+
 namespace lampblack::io {
 namespace {
 
@@ -215,7 +217,9 @@ DeckNode parseDeck(const DeckFile& file) {
   } catch (const StructureError& error) {
     throw fail(error);
   } catch (const YAML::Exception& error) {
-    throw fail(fromYaml(error));
+    StructureError structure = fromYaml(error);
+    if (!error.mark.is_null()) structure.message += whyNotYaml(lineOf(source.text, error.mark.line + 1));
+    throw fail(structure);
   }
   if (root.kind == DeckNode::Kind::null) throw deckError(source, {}, "", "the deck is empty");
   if (root.kind != DeckNode::Kind::map) {

@@ -53,6 +53,9 @@ struct DeckNode {
 // A text of a deck as messages quote it: its first 60 bytes at most.
 std::string shortened(const std::string& text);
 
+// A line of a text, from 1; empty behind its end.
+std::string lineOf(const std::string& text, int line);
+
 // "map", "list of 3", "'20 cm'" or "nothing": what was found, for messages.
 std::string foundText(const DeckNode& node);
 

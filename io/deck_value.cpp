@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "core/nearest_name.hpp"
+#include "io/deck_hints.hpp"
 #include "io/deck_mistakes.hpp"
 
 namespace lampblack::io {
@@ -98,7 +99,8 @@ void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
           return;
         }
       }
-      throw InputError(mismatch().what() + didYouMean(text, key.choices));
+      const std::string other = byOtherName(text, key.choices);
+      throw InputError(mismatch().what() + (other.empty() ? didYouMean(text, key.choices) : other));
   }
 }
 
@@ -112,7 +114,9 @@ DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std:
       DeckKey one = key;
       one.isList = key.isList && &item == &node;
       const DeckLocation at = item.at.line > 0 ? item.at : item.nameAt;
-      throw deckError(source, at, itemPath, fmt::format("expected {}, found {}", expectation(one), foundText(item)));
+      throw deckError(source, at, itemPath,
+                      fmt::format("expected {}, found {}{}", expectation(one), foundText(item),
+                                  key.type == KeyType::string ? asQuotedText(item) : ""));
     }
     try {
       readScalar(key, item.text, value);

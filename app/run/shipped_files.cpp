@@ -28,6 +28,17 @@ std::vector<std::string> namesIn(const fs::path& folder) {
   return names;
 }
 
+// The shipped files whose names have the words of a name that others use, as 'gri30.yaml' of methane_gri30_53.yaml, or
+// the nearest one.
+std::string shippedLike(const std::string& name, const std::vector<std::string>& shippedNames) {
+  const std::string stem = fs::path(name).stem().string();
+  std::string meant;
+  for (const std::string& known : shippedNames)
+    if (stem.size() > 2 && ("_" + known).find("_" + stem + "_") != std::string::npos)
+      meant += fmt::format("{}'{}'", meant.empty() ? "; did you mean " : " or ", known);
+  return meant.empty() ? didYouMean(name, shippedNames) : meant + "?";
+}
+
 }  // namespace
 
 fs::path shippedIfThere(const std::string& part) {
@@ -53,7 +64,7 @@ fs::path findMechanism(const fs::path& folder, const std::string& name) {
   if (mechanisms.empty()) return file;
   if (fs::exists(mechanisms / name, error)) return mechanisms / name;
   throw InputError(fmt::format("{}: there is no such file; expected a mechanism, and none of that name is in {}{}",
-                               file.string(), mechanisms.string(), didYouMean(name, namesIn(mechanisms))));
+                               file.string(), mechanisms.string(), shippedLike(name, namesIn(mechanisms))));
 }
 
 }  // namespace lampblack::app

@@ -13,6 +13,7 @@
 #include "app/run/build_info.hpp"
 #include "app/run/warnings.hpp"
 #include "app/shell/command.hpp"
+#include "app/shell/command_mistakes.hpp"
 #include "app/shell/problem.hpp"
 #include "app/shell/rank_launcher.hpp"
 #include "app/shell/study/analysis_command.hpp"
@@ -125,9 +126,13 @@ int execute(const std::function<void()>& work) {
 }
 
 // Help and mistakes of the command line alike are told once.
-int say(const CLI::App& app, const CLI::ParseError& error) {
+int say(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& words) {
   std::ostringstream out, message;
   const int status = app.exit(error, out, message) == 0 ? 0 : exitInput;
+  if (const std::string meant = status == 0 ? "" : commandMistake(app, words); !meant.empty()) {
+    message.str("");
+    message << meant << "\nRun with --help for more information.\n";
+  }
   if (placeOfProcess().rank != 0) return status;
   std::cout << out.str() << std::flush;
   if (!message.str().empty()) std::cerr << "lampblack: " << message.str() << std::flush;
@@ -183,7 +188,7 @@ int runCommandLine(int argc, char** argv) {
   addWhereCommand(app, command);
   for (CLI::App* subcommand : {runCommand, app.get_subcommand("sweep")})
     subcommand->add_option("--ranks", arguments.ranks, "MPI ranks; they are started by mpirun.")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1 << 24));
 
   // Where a launcher started several of this process, only the first rank speaks; alone, MPI starts when it is needed.
   std::optional<ParallelSession> session;
@@ -195,7 +200,7 @@ int runCommandLine(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return say(app, error);
+    return say(app, error, {argv + 1, argv + argc});
   }
   std::optional<int> codeOfRanks;
   const int code = execute([&] {

@@ -1,6 +1,7 @@
 #include "chemistry/mechanism/mechanism.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <utility>
 
@@ -60,10 +61,16 @@ std::size_t Mechanism::speciesIndex(std::string_view name) const {
     throw InputError(
         fmt::format("species '{}' in mechanism {} may be any of {}; expected one of these names", name, file_, names));
   }
-  std::vector<std::string_view> names;
+  std::vector<std::string> names;
   for (const auto& s : species_) names.push_back(s.name);
-  throw InputError(fmt::format("unknown species '{}' in mechanism {}; the nearest known name is '{}'", name, file_,
-                               closestName(name, names)));
+  if (const std::string near = nearestName(name, names); !near.empty())
+    throw InputError(
+        fmt::format("unknown species '{}' in mechanism {}; the nearest known name is '{}'", name, file_, near));
+  constexpr std::size_t most = 12;  // of a message
+  const std::size_t left = names.size() > most ? names.size() - most : 0;
+  names.resize(names.size() - left);
+  throw InputError(fmt::format("unknown species '{}' in mechanism {}, which has {}{}", name, file_,
+                               fmt::join(names, ", "), left > 0 ? fmt::format(" and {} more", left) : ""));
 }
 
 std::optional<std::size_t> Mechanism::findElement(std::string_view name) const {

@@ -22,6 +22,8 @@ FLAME_TEMPERATURE = 2697.883232506094
 
 # What is wrong, the arguments, and words that the message has.
 MISTAKES = [
+    ("a mechanism by another's name", ("gri30.yaml", "--T", "300", "--X", "CH4:1"),
+     ("none of that name is in", "; did you mean 'methane_gri30_53.yaml'?")),
     ("no composition", (HYDROGEN, "--T", "1500"), ("composition is missing", "--X", "--Y", "--phi")),
     ("two compositions", (HYDROGEN, "--T", "1500", "--X", AIR, "--Y", AIR), ("given twice",)),
     ("half a ratio", (HYDROGEN, "--T", "1500", "--fuel", "H2:1", "--phi", "1"), ("--oxidizer", "all three")),
@@ -213,6 +215,22 @@ def mistake(check: Checker, name: str, arguments: tuple, words: tuple) -> None:
                   f"exit code {result.code}\n{result.out}{result.err}")
 
 
+def command_line(check: Checker) -> None:
+    """Words that are no command or option are answered by what was meant."""
+    deck = str(running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml")
+    for words, told in (((deck,), f"is a file, not a command; a deck is run by: lampblack run {deck}"),
+                        (("chekc", deck), "there is no command 'chekc'; did you mean 'check'? Commands: run, check"),
+                        (("run", deck, "-np", "2"), "'lampblack run' has no option '-np'; did you mean '--ranks'?"),
+                        (("run", deck, "--output", "x"), "has no option '--output'; did you mean '--out'?"),
+                        (("run", deck, "--set", "pressure=1", "bar"), '--set "pressure=1 bar"'),
+                        (("run", deck, "--set", "title=a", "pressure=1"), "each setting has its own --set: --set pressure=1"),
+                        (("run", deck, "--ranks", "0"), "Value 0 not in range 1 to ")):
+        result = check.program(*words)
+        check.require(f"command line: {' '.join(words[:1] + words[2:])}",
+                      result.code == 2 and result.out == "" and result.err.count("lampblack: ") == 1 and told in result.err,
+                      f"exit code {result.code}\n{result.out}{result.err}")
+
+
 def ranks(check: Checker) -> None:
     """What every rank computes is printed once."""
     result = running.Program(sys.argv[1], sys.argv[3:], 2)("gas", METHANE, *FLAME, "--json")
@@ -229,7 +247,7 @@ def main() -> int:
         part(check, *arguments)
         return check.failures
 
-    parts = (spellings, equilibria, tables, chemkin, equal_reactions, names, without_transport, beyond_the_data, ranks)
+    parts = (spellings, equilibria, tables, chemkin, equal_reactions, names, without_transport, beyond_the_data, command_line, ranks)
     failed = running.at_once(failures, [(part,) for part in parts] + [(mistake, *one) for one in MISTAKES])
     return 1 if sum(failed) else 0
 

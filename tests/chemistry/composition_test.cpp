@@ -80,6 +80,7 @@ TEST(Composition, ANameAloneIsThatSpeciesAlone) {
 TEST(Composition, SaysWhatIsWrong) {
   EXPECT_THAT(messageOf("air"), HasSubstr("air is 'O2: 0.21, N2: 0.79'"));
   EXPECT_THAT(messageOf("H2: 1, H2O3: 1"), HasSubstr("nearest known name is 'H2O"));
+  EXPECT_THAT(messageOf("H2: 1, XENON: 1"), HasSubstr(", which has H2, H, "));
   EXPECT_THAT(messageOf("H2: -1, O2: 2"), HasSubstr("negative amount of 'H2'"));
   EXPECT_THAT(messageOf("H2: 0, O2: 0"), HasSubstr("all amounts are zero"));
   EXPECT_THAT(messageOf("H2: 1, H2: 2"), HasSubstr("twice"));

@@ -49,6 +49,36 @@ TEST(DeckErrors, WordsOfAKeyOrKeysOfASectionTellWhatWasMeant) {
   EXPECT_EQ(nameOfSameWords("x", {"x_min"}), "");
 }
 
+// As who comes from other programs, or does not know where YAML wants quotes, writes a deck.
+TEST(DeckErrors, WhatANewcomerWritesIsAnsweredByWhatToWrite) {
+  DeckSchema schema;
+  schema.add(stringKey("gas.composition", "Mole fractions.").optional())
+      .add(quantityKey("gas.temperature", units::temperature, "Temperature.").optional())
+      .add(quantityKey("wall.temperature", units::temperature, "Temperature.").optional())
+      .add(choiceKey("reactor.type", {"stirred", "plug_flow"}, "Kind.").optional())
+      .add(quantityKey("time.end", units::time, "End.").optional())
+      .add(integerKey("particles.sectional.sections", "Sections.").optional())
+      .add(choiceKey("particles.description", {"sectional"}, "Kind.").optional())
+      .add(choiceKey("methods.*.type", {"dsmc"}, "Kind.").optional());
+  const auto refused = [&](const std::string& text) { return test::refusalOf(schema, text); };
+  EXPECT_THAT(refused("gas: {composition: {H2: 2, O2: 1}}\n"),
+              HasSubstr("expected a text, found a map; write it in quotes, \"H2: 2, O2: 1\""));
+  EXPECT_THAT(refused("gas: {composition: H2:2,O2:1}\n"),
+              HasSubstr("unknown key 'O2:1'; a text with a comma in it stands in quotes, \"H2: 2, O2: 1\"."));
+  EXPECT_THAT(
+      refused("gas: {composition: H2: 2, O2: 1}\n"),
+      HasSubstr("this is not YAML: end of map flow not found; a text with ': ' or a comma in it stands in quotes"));
+  EXPECT_THAT(refused("gas: {temperature: 300 K}\n\ttime: {end: 1 s}\n"),
+              HasSubstr("YAML indents by blanks, no tabulators"));
+  EXPECT_THAT(refused("reactor: {type: PSR}\n"), HasSubstr("found 'PSR'; did you mean 'stirred'?"));
+  EXPECT_THAT(refused("reactor: {type: pfr}\n"), HasSubstr("did you mean 'plug_flow'?"));
+  EXPECT_THAT(refused("time: 1 ms\n"), HasSubstr("expected a map of keys, such as {end: 1 ms}, found '1 ms'"));
+  EXPECT_THAT(refused("particles: {sections: 20}\n"), HasSubstr("did you mean 'particles.sectional.sections'?"));
+  EXPECT_THAT(refused("temperature: 300 K\n"), HasSubstr("did you mean 'gas.temperature' or 'wall.temperature'?"));
+  EXPECT_THAT(refused("methods: [dsmc]\n"),
+              HasSubstr("expected a map of names, each with its keys, 'NAME: {type: ...}', found a list of 1"));
+}
+
 TEST(DeckErrors, AnUnknownKeyLikeNothingListsWhatIsKnown) {
   EXPECT_THAT(messageOf(test::sampleText + "zzzzzz: 3\n"),
               AllOf(HasSubstr("unknown key 'zzzzzz'. Known here: problem, mechanism")));

@@ -107,13 +107,13 @@ void addAnalysisCommands(CLI::App& app, Command& command) {
         ->default_val("results/analysis");
     subcommand->add_flag("--force", arguments->force, "Replace the tables of an earlier analysis in that folder.");
     subcommand->add_option("--ranks", arguments->ranks, "MPI ranks of the runs; all processors otherwise.")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1 << 24));
     subcommand
         ->add_option(
             "--jobs", arguments->jobs,
             "Run nothing: write the runs that are missing as an array of so many jobs for SLURM, each on the ranks "
             "of --ranks or of ranks_per_run.")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1 << 24));
     subcommand->callback(
         [arguments, &command, &task] { command = {[arguments, &task] { analyse(task, *arguments); }}; });
   }

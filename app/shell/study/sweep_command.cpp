@@ -241,7 +241,7 @@ void addSweepCommand(CLI::App& app, Command& command, int& ranks) {
   subcommand
       ->add_option("--jobs", arguments->jobs,
                    "Run nothing: write the runs as an array of so many jobs for SLURM, each on the ranks of --ranks.")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 1 << 24));
   subcommand->add_option("--part", arguments->part,
                          "Run one part of the study and make no table: 3/10, as the jobs of --jobs do.");
   subcommand->add_flag("--collect", arguments->collect, "Run nothing: the table of what the jobs have left.");

@@ -1,0 +1,98 @@
+#include "io/deck_hints.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "core/errors.hpp"
+#include "core/letter_case.hpp"
+#include "io/deck_value.hpp"
+
+namespace lampblack::io {
+
+std::string byOtherName(std::string_view name, const std::vector<std::string>& here) {
+  using Names = std::pair<std::string_view, std::string_view>;
+  for (const auto& [other, known] : {Names("mole_fractions", "composition"),
+                                     Names("X", "composition"),
+                                     Names("Y", "mass_fractions"),
+                                     Names("reactants", "composition"),
+                                     Names("phi", "equivalence_ratio"),
+                                     Names("T", "temperature"),
+                                     Names("p", "pressure"),
+                                     Names("P", "pressure"),
+                                     Names("composition", "mole_fractions"),
+                                     Names("gas", "charge"),
+                                     Names("psr", "stirred"),
+                                     Names("cstr", "stirred"),
+                                     Names("pfr", "plug_flow"),
+                                     Names("IdealGasReactor", "constant_volume"),
+                                     Names("IdealGasConstPressureReactor", "constant_pressure"),
+                                     Names("ConstPressureReactor", "constant_pressure"),
+                                     Names("diffusion", "counterflow"),
+                                     Names("premixed", "free"),
+                                     Names("freeflame", "free"),
+                                     Names("stagnation", "wall"),
+                                     Names("kEpsilon", "k_epsilon"),
+                                     Names("kOmegaSST", "sst"),
+                                     Names("kOmega", "k_omega"),
+                                     Names("SpalartAllmaras", "sa"),
+                                     Names("2d", "planar"),
+                                     Names("cartesian", "planar"),
+                                     Names("cylindrical", "axisymmetric"),
+                                     Names("3d", "space")})
+    if (sameInAnyCase(name, other) && (name.size() > 1 || name == other) &&
+        std::ranges::find(here, known) != here.end())
+      return fmt::format("; did you mean '{}'?", known);
+  return {};
+}
+
+std::string didYouMeanOneOf(const std::vector<std::string>& names) {
+  if (names.empty()) return {};
+  std::string text = "; did you mean ";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += fmt::format("{}'{}'", i == 0 ? "" : i + 1 == names.size() ? " or " : ", ", names[i]);
+  return text + "?";
+}
+
+std::string asQuotedText(const DeckNode& map) {
+  const bool isComposition =
+      map.kind == DeckNode::Kind::map && !map.children.empty() &&
+      std::ranges::all_of(map.children, [](const auto& child) { return child.kind == DeckNode::Kind::scalar; });
+  if (!isComposition) return {};
+  std::string text;
+  for (const DeckNode& child : map.children)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : ", ", child.name, child.text);
+  return fmt::format("; write it in quotes, \"{}\"", shortened(text));
+}
+
+std::string whyNotYaml(std::string_view line) {
+  const std::size_t text = line.find_first_not_of(" \t");
+  if (line.substr(0, text).find('\t') != std::string_view::npos) return "; YAML indents by blanks, no tabulators";
+  const std::size_t colon = line.find(": ");
+  if (colon != std::string_view::npos && line.find(": ", colon + 1) != std::string_view::npos)
+    return "; a text with ': ' or a comma in it stands in quotes, \"H2: 2, O2: 1\"";
+  return {};
+}
+
+std::string asSection(const DeckSource& source, const DeckSchema::Node& section, const DeckNode& scalar) {
+  if (scalar.kind != DeckNode::Kind::scalar || scalar.text.empty()) return {};
+  for (const DeckSchema::Node& child : section.children) {
+    // Numbers alone could be of any key.
+    const bool tells =
+        child.key != nullptr && !child.key->isList &&
+        (child.key->type == KeyType::choice ||
+         (child.key->type == KeyType::quantity && std::isdigit(static_cast<unsigned char>(scalar.text.back())) == 0));
+    if (!tells) continue;
+    try {
+      static_cast<void>(readDeckValue(source, *child.key, child.path, scalar));
+      return fmt::format(", such as {{{}: {}}}", child.name, scalar.text);
+    } catch (const InputError&) {
+      continue;  // another key, perhaps
+    }
+  }
+  return {};
+}
+
+}  // namespace lampblack::io
