@@ -2,12 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 #include <vector>
 
 #include "io/checkpoint_folder.hpp"
@@ -36,30 +38,36 @@ std::string stateOf(const fs::path& folder) {
   return fs::exists(folder / "results.h5") ? "the results of a run" : "parts of a run";
 }
 
-void removeFailedCells(const fs::path& folder) {
+void removeFile(const fs::path& file) {
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(RunFolder::failedCellPrefix) || !name.ends_with(".yaml")) continue;
-    fs::remove(entry.path(), error);
-    if (error) throw InputError(fmt::format("{}: cannot be removed: {}", entry.path().string(), error.message()));
-  }
+  fs::remove(file, error);
+  if (error) throw InputError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
 }
 
-// Those of an earlier run, and their folder where nothing else is in it.
-void removeTables(const fs::path& folder) {
-  const fs::path tables = folder / RunFolder::tableFolder;
+// Files of a folder, by the beginnings and the end of their names.
+template <typename Beginnings>
+void removeFiles(const fs::path& folder, const Beginnings& beginnings, std::string_view end) {
   std::error_code error;
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(tables, error)) {
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    const bool isTable = name.starts_with("probe_") || name.starts_with("line_") || name.starts_with("boundary_");
-    if (isTable && name.ends_with(".csv")) files.push_back(entry.path());
+    const auto begins = [&](std::string_view beginning) { return name.starts_with(beginning); };
+    if (std::ranges::any_of(beginnings, begins) && name.ends_with(end)) files.push_back(entry.path());
   }
-  for (const fs::path& file : files) {
-    fs::remove(file, error);
-    if (error) throw InputError(fmt::format("{}: cannot be removed: {}", file.string(), error.message()));
-  }
+  for (const fs::path& file : files) removeFile(file);
+}
+
+constexpr std::string_view tableKinds[] = {"probe_", "line_", "boundary_", "wall_", "deposit_", "sizes_", "joint_"};
+
+// Of an earlier run: its tables, and their folder where nothing else is in it; cells that failed; and what only some
+// runs leave, by names that other files may have, so that this is for folders of runs alone.
+constexpr std::array<std::string_view, 1> failedCells{RunFolder::failedCellPrefix};
+constexpr std::array<std::string_view, 4> someLeave{"size_distributions.", "share_distributions.", "classes_", "soot."};
+
+void removeTables(const fs::path& folder) {
+  const fs::path tables = folder / RunFolder::tableFolder;
+  removeFiles(tables, tableKinds, ".csv");
+  std::error_code error;
   if (fs::is_directory(tables, error) && fs::is_empty(tables, error)) fs::remove(tables, error);
 }
 
@@ -68,9 +76,11 @@ enum class Earlier { refused, replaced, continued };
 // Throws on rank 0 only.
 std::shared_ptr<FolderLock> prepareHere(const fs::path& path, Earlier earlier) {
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_directory(path, error)) {
+  for (fs::path there = path; !there.empty(); there = there.has_relative_path() ? there.parent_path() : fs::path()) {
+    if (!fs::exists(there, error)) continue;
+    if (fs::is_directory(there, error)) break;
     throw InputError(
-        fmt::format("{}: this is a file; the output has to go to a folder. Choose another with --out", path.string()));
+        fmt::format("{}: this is a file; the output has to go to a folder. Choose another with --out", there.string()));
   }
   std::shared_ptr<FolderLock> lock;
   if (fs::exists(path, error)) lock = std::make_shared<FolderLock>(path);
@@ -82,13 +92,9 @@ std::shared_ptr<FolderLock> prepareHere(const fs::path& path, Earlier earlier) {
         fmt::format("{}: this folder holds {} already. Choose another with --out DIR, or replace that run with --force",
                     path.string(), stateOf(path)));
   }
-  for (const char* name : runFiles) {
-    fs::remove(path / name, error);
-    if (error) {
-      throw InputError(fmt::format("{}: cannot be removed: {}", (path / name).string(), error.message()));
-    }
-  }
-  removeFailedCells(path);
+  for (const char* name : runFiles) removeFile(path / name);
+  removeFiles(path, failedCells, ".yaml");
+  if (used) removeFiles(path, someLeave, ".csv");
   removeTables(path);
   if (earlier != Earlier::continued) CheckpointFolder(path).removeAllBut({});
   fs::create_directories(path, error);

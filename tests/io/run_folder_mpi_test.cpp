@@ -81,10 +81,28 @@ TEST_F(RunFolders, LoseTheOldRunAndNothingElseWithForce) {
   EXPECT_TRUE(fs::exists(folder / "notes.txt"));
 }
 
+// What some runs alone leave goes too, but where no run was.
+TEST_F(RunFolders, KeepNoTableOfAnotherRun) {
+  for (const bool hasRun : {false, true}) {
+    for (const char* name : {"size_distributions.csv", "classes_primaries.csv", "soot.csv", "mine.csv"}) put(name, "x");
+    if (test::worldRank() == 0) fs::create_directories(folder / "tables");
+    for (const char* name : {"tables/wall_low.csv", "tables/deposit_low.csv", "tables/line_a.csv"}) put(name, "x");
+    if (hasRun) put("run.json", "{}");
+    (void)RunFolder::prepare(folder, true, MPI_COMM_WORLD);
+    for (const char* name : {"size_distributions.csv", "classes_primaries.csv", "soot.csv"})
+      EXPECT_EQ(fs::exists(folder / name), !hasRun) << name;
+    EXPECT_FALSE(fs::exists(folder / "tables"));
+    EXPECT_TRUE(fs::exists(folder / "mine.csv"));
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+}
+
 TEST_F(RunFolders, MayNotBeFiles) {
   if (test::worldRank() == 0) std::ofstream(folder) << "x";
   MPI_Barrier(MPI_COMM_WORLD);
-  EXPECT_THAT(refusal(), HasSubstr("this is a file; the output has to go to a folder"));
+  EXPECT_THAT(refusal(), HasSubstr("run: this is a file; the output has to go to a folder"));
+  folder /= "below";
+  EXPECT_THAT(refusal(), HasSubstr("run: this is a file; the output has to go to a folder"));
 }
 
 TEST_F(RunFolders, FilesAreReplacedWhole) {
