@@ -221,7 +221,7 @@ def command_line(check: Checker) -> None:
     for words, told in (((deck,), f"is a file, not a command; a deck is run by: lampblack run {deck}"),
                         (("chekc", deck), "there is no command 'chekc'; did you mean 'check'? Commands: run, check"),
                         (("run", deck, "-np", "2"), "'lampblack run' has no option '-np'; did you mean '--ranks'?"),
-                        (("run", deck, "--output", "x"), "has no option '--output'; did you mean '--out'?"),
+                        (("run", deck, "--fource"), "has no option '--fource'; did you mean '--force'?"),
                         (("run", deck, "--set", "pressure=1", "bar"), '--set "pressure=1 bar"'),
                         (("run", deck, "--set", "title=a", "pressure=1"), "each setting has its own --set: --set pressure=1"),
                         (("run", deck, "--ranks", "0"), "Value 0 not in range 1 to ")):
