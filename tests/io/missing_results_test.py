@@ -1,12 +1,14 @@
-"""What scripts say of results that are missing or damaged: one line with what was expected, and an exit code of 2."""
+"""What scripts say of results that are missing or damaged: one line with what was expected, and an exit code of 2; and of repeats that
+are no pairs."""
 
+import json
 import pathlib
 import subprocess
 import sys
 import tempfile
 
 try:
-    import h5py  # noqa: F401
+    import h5py
     import matplotlib  # noqa: F401
 except ImportError:
     sys.exit(77)
@@ -28,6 +30,19 @@ COMMANDS = [
     ("check_soot_trends", (), "expected the folder of a study"),
     ("plot", (), "expected the folder of a run or study"),
 ]
+
+
+def check_pairs(folder):
+    """Repeats of other random numbers are refused, the same are compared."""
+    for name, seed in (("first", 1), ("same", 1), ("other", 2)):
+        (folder / name).mkdir()
+        (folder / name / "run.json").write_text(json.dumps({"seed": seed, "deck": {"problem": "engine"}}), encoding="utf-8")
+        with h5py.File(folder / name / "results.h5", "w") as file:
+            for quantity in ("cycle", "ca50"):
+                file.create_dataset(f"repeats/{quantity}", data=[1.0, 2.0, 3.0 * seed]).attrs.update(unit="1", description="of a test")
+    same, other = (running.script(SCRIPTS / "compare_repeats", folder / "first", folder / name, "--of", "ca50") for name in ("same", "other"))
+    assert same.code == 0 and "0.0 errors" in same.out, same
+    assert other.code != 0 and "sample.seed is 2, 1 in" in other.err and other.out == "", other
 
 
 def main():
@@ -60,6 +75,7 @@ def main():
                 2, f"{damaged}: damaged: the library that reads it crashed (SIGABRT)\n"), done
 
         crash()
+        check_pairs(pathlib.Path(name))
         script = "import os, sys; from lampblack.damage import guarded; sys.exit(guarded(lambda: os.kill(os.getpid(), 9)))"
         done = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False, cwd=PYTHON)
         assert (done.returncode, done.stderr) == (-9, ""), done  # not the file's fault
