@@ -1,5 +1,7 @@
 // Runs of flames in turbulence: the same on any number of ranks and after a restart, without mixing those without a
 // model to the last bit, with closed budgets, and where a model cannot be its message.
+#include "app/problems/flame/flame_case.hpp"
+#include "app/problems/reactor/reactor_case.hpp"
 #include "tests/app/turbulent_run.hpp"
 
 namespace lampblack::app {
@@ -146,6 +148,13 @@ TEST(CombustionCase, RefusesWhatCannotBe) {
     EXPECT_THAT(laminar, HasSubstr("combustion.model"));
     EXPECT_THAT(laminar, HasSubstr("'" + model + "' goes by the turbulence, and the flow has none; expected laminar"));
   }
+  // Where nothing is turbulent there is no such section.
+  const auto elsewhere = [](const std::string& problem, const DeckSchema& schema) {
+    const std::string text = fmt::format("problem: {}\nmechanism: gas.yaml\ncombustion: {{model: pasr}}\n", problem);
+    return test::messageOf<InputError>([&] { (void)Deck::parse(text, "deck.yaml", {}, schema); });
+  };
+  EXPECT_THAT(elsewhere("reactor", reactorSchema()), HasSubstr("unknown key 'combustion'"));
+  EXPECT_THAT(elsewhere("flame1d", flameSchema()), HasSubstr("unknown key 'combustion'"));
   EXPECT_TRUE(readFlowCase(mixingDeck("model: pasr, dissipation: shear", {sa})).combustion->dissipationOfShear);
   EXPECT_FALSE(readFlowCase(mixingDeck("model: laminar")).combustion);
 }

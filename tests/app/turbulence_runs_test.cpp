@@ -116,6 +116,19 @@ TEST(TurbulenceStarts, FromARunOfAnotherModel) {
   for (const double k : otherwise.fields.at("000000/turbulent_kinetic_energy")) EXPECT_NEAR(k, 0.3, 1e-12);
 }
 
+// A formula whose energy is below zero at a face: with the face's place.
+TEST(TurbulenceStarts, NeedEnergyAboveZeroAtEachFaceOfAnInlet) {
+  const test::SharedScratchFolder scratch;
+  const std::string message = test::messageOf<InputError>([&] {
+    test::runFlow(
+        turbulentDeck(sstAtStart, ", formula: {turbulent_kinetic_energy: \"0.5 - 30*y\", turbulent_dissipation: \"2\"}",
+                      20.0),
+        scratch.path() / "out");
+  });
+  EXPECT_THAT(message, AllOf(HasSubstr("boundary in, at (0, 0.01"), HasSubstr("are to be above zero, found -0.")));
+  EXPECT_TRUE(test::sameOnAllRanks(message));
+}
+
 // The message has the place and the variables.
 TEST(TurbulenceStarts, EndWhereEddiesAreTooViscous) {
   const test::SharedScratchFolder scratch;
