@@ -18,10 +18,11 @@ class ConstantPressureReactor {
  public:
   struct Options {
     double relativeTolerance = 1e-6;
-    // Of a mass fraction; one below -100 times this counts as that in the rates (ReactorSystem).
-    double absoluteTolerance = 1e-12;
-    // Errors of the tolerance's size stay in the range where rates are smooth.
-    [[nodiscard]] double leastFraction() const { return -100.0 * absoluteTolerance; }
+    double absoluteTolerance = 1e-12;  // of a mass fraction
+    // A mass fraction below this counts as this in the rates (ReactorSystem). Errors of the tolerance's size stay in the
+    // range where rates are smooth.
+    double belowZero = 100.0;  // of absoluteTolerance
+    [[nodiscard]] double leastFraction() const { return -belowZero * absoluteTolerance; }
     int maxSteps = 20000;  // of CVODE
     // A cell is skipped, i.e. advanced by one explicit trapezoid, if its chemistry changes no mass fraction by more
     // than this over the interval, at the rates of its start and of its end, and those differ so little that the error

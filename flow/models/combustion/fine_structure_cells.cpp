@@ -25,6 +25,7 @@ constexpr int mostStepsOfSlopes = 1000;
 ConstantPressureReactor::Options smoothOf(ConstantPressureReactor::Options options) {
   options.relativeTolerance *= smoother;
   options.absoluteTolerance *= smoother;
+  options.belowZero /= smoother;  // rates of the same mass fractions as the slopes have
   options.negligibleChange *= smoother;
   options.rosenbrockSteps *= moreSteps;
   return options;
@@ -172,7 +173,8 @@ void FineStructureCells::findSlopes(const Gas& gas, std::span<const double> Y, s
   ReactorIntegrator::Work work;
   if (!steps_.advance({gas.mixing.fineTime, 0.0, toleranceOfSlopes, absoluteToleranceOfSlopes, mostStepsOfSlopes}, y,
                       work, {}, slopes))
-    throw NumericsError("the reactions of fine structures have no slopes");
+    throw NumericsError(fmt::format("the reactions of fine structures have no slopes: {}",
+                                    system_.refusal().empty() ? fmt::format("they need more than {} steps", mostStepsOfSlopes) : system_.refusal()));
   const double speed = gas.mixing.reactingShare / gas.mixing.fineTime;
   for (std::size_t j = 0; j < width; ++j) {
     slopes[j * width + j] -= 1.0;
