@@ -59,6 +59,11 @@ double ImplicitStep::renewal(const State& state) const {
   return least;
 }
 
+double ImplicitStep::shareLeft(const NewtonKrylov::Left& left, const NewtonKrylov::Left& before, bool isLimited) {
+  const double ofWorst = left.root / before.root;
+  return isLimited ? ofWorst : std::min(ofWorst, left.sum / before.sum);
+}
+
 ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double> haste) {
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
@@ -69,7 +74,8 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   const State start = state;
   Result result;
   result.time = time_;
-  double before = 0.0, left = 0.0;
+  NewtonKrylov::Left before;
+  double left = 0.0;
   for (int pass = 0; pass < mostPasses; ++pass) {
     const NewtonKrylov::Result step = newton_.advance(state, inertia_, linearReduction, &start);
     if (pass == 0) before = step.before;
@@ -77,19 +83,20 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
     result.largestRise = std::max(result.largestRise, step.largestRise);
     result.limited = step.limited;
     residual_.evaluate(state);
-    left = newton_.leftInTime(state, start);
-    if (left <= enough * before) break;
+    left = shareLeft(newton_.leftInTime(state, start), before, step.limited > 0);
+    if (left <= enough) break;
+  }
+  result.taken = left <= mostLeft;
+  if (!result.taken) {
+    shorten();
+    return result;
   }
   for (int pass = 0; pass < carriedPasses; ++pass) {
     residual_.evaluateCarried(state, pass > 0 ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
     carried_.advance(state, residual_, inertia_);
   }
   residual_.evaluate(state);
-  result.taken = left <= mostLeft * before;
-  if (!result.taken)
-    shorten();
-  else if (left <= leftOfEasy * before)
-    lengthen();
+  if (left <= leftOfEasy) lengthen();
   return result;
 }
 

@@ -111,17 +111,23 @@ void NewtonKrylov::takeInertia(const State& state, const State& start, std::span
   }
 }
 
-double NewtonKrylov::leftInTime(const State& state, const State& start) {
+NewtonKrylov::Left NewtonKrylov::leftInTime(const State& state, const State& start) {
   find(state, leftInTime_);
   takeInertia(state, start, leftInTime_);
   return sizeInTime();
 }
 
-double NewtonKrylov::sizeInTime() const {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < size_; ++i) sum += std::abs(rows_[i] * leftInTime_[i]);
-  MPI_Allreduce(MPI_IN_PLACE, &sum, 1, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
-  return sum;
+NewtonKrylov::Left NewtonKrylov::sizeInTime() const {
+  std::array<double, 2> sums{};
+  const std::size_t inCells = size_ - faces_;
+  for (std::size_t i = 0; i < size_; ++i) {
+    if (i >= inCells && context_.mesh.low[i - inCells] >= context_.mesh.owned) continue;  // another rank's face
+    const double size = std::abs(rows_[i] * leftInTime_[i]);
+    sums[0] += size;
+    sums[1] += size * size;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, sums.data(), 2, MPI_DOUBLE, MPI_SUM, context_.mesh.comm);
+  return {.sum = sums[0], .root = std::sqrt(sums[1])};
 }
 
 void NewtonKrylov::move(State& state, double step, std::span<const double> along) const {
@@ -314,12 +320,12 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   flow_.prepare(state, inertia);
   if (carried_) carried_->prepare(state, residual_, inertia);
   faceDensity_ = residual_.faces().density;
-  findScales(state);
+  findScales(start ? *start : state);  // the same in all passes of a step
   find(state, left_);
   baseMass_ = residual_.rates().mass;
   leftInTime_ = left_;
   if (start) takeInertia(state, *start, leftInTime_);
-  const double before = sizeInTime();
+  const Left before = sizeInTime();
   {
     const PetscMutableValues values(rightSide_.get());
     for (std::size_t i = 0; i < size_; ++i) values.get()[i] = rows_[i] * leftInTime_[i];

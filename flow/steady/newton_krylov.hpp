@@ -29,27 +29,31 @@ class NewtonKrylov {
   NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
                CarriedUpdate* carried = nullptr, std::vector<Operator*> operators = {});
 
+  // Of equations, over what goes through the domain: all sizes, and the root of all squares, which the worst cell
+  // makes.
+  struct Left {
+    double sum = 0.0, root = 0.0;
+  };
   struct Result {
     int iterations = 0;        // of the linear solver
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose change was limited
     double reached = 0.0;      // what is left of the linear system
-    double before = 0.0;       // what is left before the step, as leftInTime() has it
+    Left before;               // what is left before the step, as leftInTime() has it
   };
   // Collective. The residual is of the state; inertia (kg/s, owned cells): mass over the cell's pseudo-time. The
   // residual is of some other state then. `start`: the state that the pseudo-time begins with, where that is an earlier
   // one (ImplicitStep); null: the state itself.
   Result advance(State& state, std::span<const double> inertia, double reduction, const State* start = nullptr);
   // Collective, after a step with it: what is left of the equations of that pseudo-time in a state, of which the
-  // residual is, over what goes through the domain: the sum of all sizes, in
-  // which a few cells that go to and fro do not count for all others.
-  [[nodiscard]] double leftInTime(const State& state, const State& start);
+  // residual is.
+  [[nodiscard]] Left leftInTime(const State& state, const State& start);
 
  private:
   void find(const State& state, std::span<double> left);
   // Of what is left: what the change since the start of the pseudo-time takes.
   void takeInertia(const State& state, const State& start, std::span<double> left) const;
-  [[nodiscard]] double sizeInTime() const;
+  [[nodiscard]] Left sizeInTime() const;
   void move(State& state, double step, std::span<const double> along) const;
   void findScales(const State& state);
   void multiply(Vec x, Vec y);

@@ -302,20 +302,22 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
 SteadyIteration::Outcome SteadyIteration::stepInTime(State& state) {
   Outcome outcome;
   outcome.courant = courant_;
+  double tried = 0.0;  // s
   try {
     const ImplicitStep::Result step = step_->advance(state, haste_);
+    tried = step.time;
     outcome.newtonIterations = step.vectors;
     outcome.largestRise = step.largestRise;
     outcome.limited = step.limited;
     outcome.taken = step.taken;
-    measure_ = outcome.measure = measure(state);
+    if (step.taken) measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {
     outcome.why = error.what();
     step_->shorten();
     return outcome;
   }
   hurry();
-  if (!outcome.taken) outcome.why = fmt::format("Newton's method leads nowhere in a step of {:.2g} s", step_->time());
+  if (!outcome.taken) outcome.why = fmt::format("Newton's method leads nowhere in a step of {:.2g} s", tried);
   return outcome;
 }
 
@@ -356,7 +358,7 @@ SteadyIteration::Outcome SteadyIteration::tryOne(State& state, bool mayAccelerat
   const double last = measure_;
   int newtonIterations = 0;
   bool isTakenBack = false;
-  if (step_ && last >= options_.inTime) return attemptInTime(state);
+  if (step_ && last - ofCarried(state, through(state)) >= options_.inTime) return attemptInTime(state);
   if (newton_ && mayAccelerate && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
     const Outcome outcome = attemptTogether(state);
     if (outcome.taken) return outcome;

@@ -40,7 +40,8 @@ class SteadyIteration {
     // accelerated: of a flow whose flame stands where it will stand.
     double accelerated = 3e-4;
     bool newton = true;
-    // The same above which, where gas that eddies stir reacts, iterations are steps of one time (ImplicitStep).
+    // The same, but what is left of all that is carried, above which, where gas that eddies stir reacts, iterations are
+    // steps of one time (ImplicitStep): Newton's method after them knows the eddies.
     double inTime = 1e-5;
   };
 
@@ -112,7 +113,7 @@ class SteadyIteration {
   GasUpdate gas_;
   std::optional<CarriedUpdate> carried_;  // where the flow carries something
   FlowUpdate flow_;
-  std::optional<NewtonKrylov> newton_;  // where no load or pressure of a vessel is an unknown and nothing eddies
+  std::optional<NewtonKrylov> newton_;  // where no load or pressure of a vessel is an unknown
   std::optional<ImplicitStep> step_;    // where besides gas that eddies stir reacts
   AndersonMixing mixing_;
   double courant_;
