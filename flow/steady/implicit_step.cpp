@@ -11,13 +11,13 @@ namespace {
 
 // Of Newton's method in a step: its linear systems, how often at most, and what of the step's equations is enough.
 constexpr double linearReduction = 0.05;
-constexpr int mostPasses = 3;
+constexpr int mostNewtonPasses = 3;
 constexpr double enough = 0.15;
 // What a step may leave of its equations to be taken, and to be followed by a longer one.
-constexpr double mostLeft = 0.3, leftOfEasy = 0.2;
-// Of the time of a step; near a time that was refused growth is slower.
-constexpr double growth = 2.0, slowGrowth = 1.2, nearRefused = 0.6, afterFailure = 0.4;
-constexpr int carriedPasses = 2;
+constexpr double mostLeftInTime = 0.3, leftOfEasy = 0.2;
+// Of the time of a step; near a time that was refused growthOfTime is slower.
+constexpr double growthOfTime = 2.0, slowGrowthOfTime = 1.2, nearRefused = 0.6, shorterInTime = 0.4;
+constexpr int carriedPassesInTime = 2;
 
 }  // namespace
 
@@ -32,12 +32,12 @@ ImplicitStep::ImplicitStep(const FlowContext& context, const State& state, FlowR
 
 void ImplicitStep::shorten() {
   refused_ = time_;
-  time_ *= afterFailure;
+  time_ *= shorterInTime;
 }
 
 void ImplicitStep::lengthen() {
   if (time_ >= refused_) refused_ = INFINITY;
-  time_ = std::min(growth * time_, std::max(slowGrowth * time_, nearRefused * refused_));
+  time_ = std::min(growthOfTime * time_, std::max(slowGrowthOfTime * time_, nearRefused * refused_));
 }
 
 void ImplicitStep::saveOrLoad(StateArchive& archive) {
@@ -76,7 +76,7 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   result.time = time_;
   NewtonKrylov::Left before;
   double left = 0.0;
-  for (int pass = 0; pass < mostPasses; ++pass) {
+  for (int pass = 0; pass < mostNewtonPasses; ++pass) {
     const NewtonKrylov::Result step = newton_.advance(state, inertia_, linearReduction, &start);
     if (pass == 0) before = step.before;
     result.vectors += step.iterations;
@@ -86,12 +86,12 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
     left = shareLeft(newton_.leftInTime(state, start), before, step.limited > 0);
     if (left <= enough) break;
   }
-  result.taken = left <= mostLeft;
+  result.taken = left <= mostLeftInTime;
   if (!result.taken) {
     shorten();
     return result;
   }
-  for (int pass = 0; pass < carriedPasses; ++pass) {
+  for (int pass = 0; pass < carriedPassesInTime; ++pass) {
     residual_.evaluateCarried(state, pass > 0 ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
     carried_.advance(state, residual_, inertia_);
   }

@@ -37,8 +37,8 @@ class ImplicitStep {
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose last change was limited
   };
-  // Collective. The residual is of the state then where the step is taken. `haste` (owned cells): of the time that other cells have.
-  // NumericsError where the gas has no properties or rates.
+  // Collective. The residual is of the state then where the step is taken. `haste` (owned cells): of the time that
+  // other cells have. NumericsError where the gas has no properties or rates.
   Result advance(State& state, std::span<const double> haste);
   // What Newton's method has left of a step's equations, of what they had. Where limits held cells back the worst of
   // them counts (in the sum of all cells it would pass, and become a pocket hotter than any gas that burns); where they
