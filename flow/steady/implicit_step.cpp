@@ -15,7 +15,7 @@ constexpr int mostNewtonPasses = 3;
 constexpr double enough = 0.15;
 // What a step may leave of its equations to be taken, and to be followed by a longer one.
 constexpr double mostLeftInTime = 0.3, leftOfEasy = 0.2;
-// Of the time of a step; near a time that was refused growthOfTime is slower.
+// Of the time of a step: near a time that was refused it grows more slowly.
 constexpr double growthOfTime = 2.0, slowGrowthOfTime = 1.2, nearRefused = 0.6, shorterInTime = 0.4;
 constexpr int carriedPassesInTime = 2;
 
