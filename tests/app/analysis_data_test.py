@@ -14,7 +14,7 @@ import types
 import running
 
 np = running.package("numpy")
-running.needs("scipy", "h5py")
+running.needs("scipy", "h5py", "yaml")
 sys.path.insert(0, str(running.SOURCE / "python"))
 
 from lampblack import arrays  # noqa: E402
@@ -211,6 +211,29 @@ def check_kept_failures(folder):
     (batch / "study.json").write_text(json.dumps({"runs": [{"run": f"k_{i}", "status": status, "message": ""} for i, status in enumerate(
         ("wrong input", "numerics failed"))]}), encoding="utf-8")
     assert set(runs.Runs(known, folder / "kept")._failed) == {"1"} and set(runs.Runs(known, folder / "kept", jobs=2)._failed) == {"0", "1"}
+
+
+def check_bases(folder):
+    """A run is of its deck's base, too; the deck with the constants is laid over it and stands alone."""
+    (folder / "base.yaml").write_text("problem: reactor\ntime: {end: 1 ms, steps: [1, 2]}\nmechanism: h2.yaml\npaths: [{x: NO}, {x: b}]\n", encoding="utf-8")
+    deck = folder / "own.yaml"
+    alone, keys = folder / "alone.yaml", set()
+    alone.write_text("problem: reactor\n", encoding="utf-8")
+    one, other = (types.SimpleNamespace(deck=path, name=path.stem) for path in (deck, alone))
+    for text in ("base: base.yaml\ntime: {end: 2 ms}\n", "base: 'base.yaml' # as there\n", '{"base": "base.yaml", "time": {"end": "2 ms"}}\n'):
+        deck.write_text(text, encoding="utf-8")
+        first, without = runs.run_key(one, []), runs.run_key(other, [])
+        (folder / "base.yaml").write_text((folder / "base.yaml").read_text(encoding="utf-8") + "# edited\n", encoding="utf-8")
+        keys |= {first, runs.run_key(one, [])}
+        assert runs.run_key(other, []) == without and runs.run_key(one, []) == runs.run_key(one, [])
+    assert len(keys) == 6, keys
+
+    yaml, warned = running.package("yaml"), []
+    known = types.SimpleNamespace(name="a", experiments=[one], settings=lambda experiment, x: ["paths[1].x=7", "time.start=1 s"])
+    tables.write_best(folder / "best", types.SimpleNamespace(problem=known, runs=types.SimpleNamespace(place=lambda *at: folder), warn=warned.append), None, [])
+    best = yaml.load((folder / "best/own.yaml").read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    assert not warned and best == {"problem": "reactor", "time": {"end": "2 ms", "steps": ["1", "2"], "start": "1 s"}, "mechanism": "h2.yaml",
+                                   "paths": [{"x": "NO"}, {"x": "7"}]}, best
 
 
 def check_record(folder):

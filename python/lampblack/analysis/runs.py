@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
 import shutil
 import subprocess
@@ -27,9 +28,20 @@ def processors():
     return len(os.sched_getaffinity(0))
 
 
+_BASE = re.compile(r"""\bbase["']?\s*:\s*(?:"([^"\n]+)"|'([^'\n]+)'|([^\s,}#"'][^,}#\n]*))""")
+
+
+def _bases(deck, text):
+    """The texts of the decks of its folder that a deck goes on from (`base`), found without PyYAML. The words may also stand in a comment:
+    one text more in a key does no harm, one that is missing does."""
+    names = ["".join(found).strip() for found in _BASE.findall(text)]
+    return [(deck.parent / name).read_text(encoding="utf-8") for name in names if (deck.parent / name).is_file()]
+
+
 def run_key(experiment, settings):
-    """Of the deck's text, where it stands, and the settings."""
-    text = json.dumps([experiment.deck.read_text(encoding="utf-8"), str(experiment.deck.parent), settings])
+    """Of the text of the deck and of its base, where they stand, and the settings."""
+    deck = experiment.deck.read_text(encoding="utf-8")
+    text = json.dumps([deck, *_bases(experiment.deck, deck), str(experiment.deck.parent), settings])
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 

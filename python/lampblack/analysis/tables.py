@@ -117,6 +117,22 @@ def _assign(deck, key, value):
     deck[parts[-1]] = value
 
 
+def _over(base, own):
+    """As the program lays a deck over its base (io/deck_base.hpp): maps key by key, all else is replaced."""
+    if not (isinstance(base, dict) and isinstance(own, dict)):
+        return own
+    return {**base, **{key: _over(base[key], value) if key in base else value for key, value in own.items()}}
+
+
+def _deck_of(path):
+    """A deck over its base, with every scalar the text that it is: NO is a species. Needs the package yaml."""
+    import yaml
+
+    deck = yaml.load(path.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+    base = deck.pop("base", None)
+    return deck if base is None else _over(yaml.load((path.parent / base).read_text(encoding="utf-8"), Loader=yaml.BaseLoader), deck)
+
+
 def write_best(folder, work, x, words):
     """best/<deck>.yaml: the decks with the constants in their places; each runs as it is. Needs the package yaml, or warns."""
     problem, runs = work.problem, work.runs
@@ -131,8 +147,7 @@ def write_best(folder, work, x, words):
     for experiment in problem.experiments:
         if runs.place(experiment, x) is None:
             continue
-        # Every scalar stays the text that it is: NO is a species.
-        deck = yaml.load(experiment.deck.read_text(encoding="utf-8"), Loader=yaml.BaseLoader)
+        deck = _deck_of(experiment.deck)
         for setting in problem.settings(experiment, x):
             key, _, value = setting.partition("=")
             _assign(deck, key, yaml.load(value, Loader=yaml.BaseLoader))
