@@ -218,7 +218,7 @@ DeckNode parseDeck(const DeckFile& file) {
     throw fail(error);
   } catch (const YAML::Exception& error) {
     StructureError structure = fromYaml(error);
-    if (!error.mark.is_null()) structure.message += whyNotYaml(lineOf(source.text, error.mark.line + 1));
+    if (!error.mark.is_null()) structure.message += whyNotYaml(lineOf(file.text, error.mark.line + 1));
     throw fail(structure);
   }
   if (root.kind == DeckNode::Kind::null) throw deckError(source, {}, "", "the deck is empty");
