@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
+#include <system_error>
 #include <utility>
 
 #include "core/errors.hpp"
@@ -59,7 +61,12 @@ std::string didYouMeanOneOf(const std::vector<std::string>& names) {
 std::string asQuotedText(const DeckNode& map) {
   const bool isComposition =
       map.kind == DeckNode::Kind::map && !map.children.empty() &&
-      std::ranges::all_of(map.children, [](const auto& child) { return child.kind == DeckNode::Kind::scalar; });
+      std::ranges::all_of(map.children, [](const auto& child) {
+        double value = 0;
+        const char* const end = child.text.data() + child.text.size();
+        return child.kind == DeckNode::Kind::scalar &&
+               std::from_chars(child.text.data(), end, value) == std::from_chars_result{end, std::errc{}};
+      });
   if (!isComposition) return {};
   std::string text;
   for (const DeckNode& child : map.children)
@@ -70,9 +77,13 @@ std::string asQuotedText(const DeckNode& map) {
 std::string whyNotYaml(std::string_view line) {
   const std::size_t text = line.find_first_not_of(" \t");
   if (line.substr(0, text).find('\t') != std::string_view::npos) return "; YAML indents by blanks, no tabulators";
-  const std::size_t colon = line.find(": ");
-  if (colon != std::string_view::npos && line.find(": ", colon + 1) != std::string_view::npos)
-    return "; a text with ': ' or a comma in it stands in quotes, \"H2: 2, O2: 1\"";
+  constexpr std::size_t none = std::string_view::npos;
+  for (std::size_t colon = line.find(": "), next = none; colon != none; colon = next) {
+    next = line.find(": ", colon + 1);
+    // "key: a: b": a key and a value that is itself "a: b", with nothing that begins a map or a list between them.
+    if (next != none && line.substr(colon, next - colon).find_first_of("{[,") == none)
+      return "; a text with ': ' or a comma in it stands in quotes, \"H2: 2, O2: 1\"";
+  }
   return {};
 }
 

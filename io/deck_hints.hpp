@@ -18,10 +18,12 @@ std::string byOtherName(std::string_view name, const std::vector<std::string>& h
 // "; did you mean 'a', 'b' or 'c'?" of one to three names.
 std::string didYouMeanOneOf(const std::vector<std::string>& names);
 
-// Of a map that stands in place of a text: how to write it, where it is a composition without its quotes.
+// Of a map that stands in place of a text: how to write it, where it is a composition (numbers alone) without its
+// quotes.
 std::string asQuotedText(const DeckNode& map);
 
-// Of a text that is not YAML, the line of the mistake.
+// Of a text that is not YAML, the line of the mistake: what to write where a tabulator or an unquoted text is the
+// cause.
 std::string whyNotYaml(std::string_view line);
 
 // Where a scalar stands in place of a section: ", such as {end: 1 ms}", the first key that can have it.

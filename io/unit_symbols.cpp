@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <numbers>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "core/letter_case.hpp"
 
@@ -131,9 +134,13 @@ std::optional<Unit> unitOfSymbol(std::string_view name) {
 
 std::string unitAsWrittenHere(std::string_view name) {
   std::string meant;
+  std::vector<std::string> told;
   const auto consider = [&](std::string_view prefix, const Symbol& symbol) {
     const std::string known = std::string(prefix).append(symbol.name);
-    if (sameInAnyCase(name, known)) meant += (meant.empty() ? "; did you mean " : " or ") + known;
+    if (std::ranges::find(told, known) != told.end()) return;  // "um" stands for itself and is a prefixed m
+    if (!sameInAnyCase(name, known)) return;
+    told.push_back(known);
+    meant += (meant.empty() ? "; did you mean " : " or ") + known;
   };
   for (const Symbol& symbol : symbols) {
     consider("", symbol);

@@ -63,6 +63,9 @@ TEST(DeckErrors, WhatANewcomerWritesIsAnsweredByWhatToWrite) {
   const auto refused = [&](const std::string& text) { return test::refusalOf(schema, text); };
   EXPECT_THAT(refused("gas: {composition: {H2: 2, O2: 1}}\n"),
               HasSubstr("expected a text, found a map; write it in quotes, \"H2: 2, O2: 1\""));
+  EXPECT_THAT(refused("gas: {composition: {file: h2.yaml, phase: gas}}\n"),
+              AllOf(HasSubstr("expected a text, found a map"), Not(HasSubstr("quotes"))));
+  EXPECT_THAT(refused("mesh: {z: [{to: 5 mm, cells: 3]}\n"), AllOf(HasSubstr("not YAML"), Not(HasSubstr("quotes"))));
   EXPECT_THAT(refused("gas: {composition: H2:2,O2:1}\n"),
               HasSubstr("unknown key 'O2:1'; a text with a comma in it stands in quotes, \"H2: 2, O2: 1\"."));
   EXPECT_THAT(

@@ -77,6 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"20 parsec", units::length, "'parsec' is not a unit known here"},
         Refused{"60 torr", units::pressure, "'torr' is not a unit known here; did you mean Torr?"},
         Refused{"2 Atm", units::pressure, "did you mean atm?"}, Refused{"1 Kpa", units::pressure, "did you mean kPa?"},
+        Refused{"5 UM", units::length, "; did you mean um?"},
         Refused{"2 MPA", units::pressure, "did you mean mPa or MPa?"},
         Refused{"25 C", units::temperature, "'C' is not a unit known here; write degC"},
         Refused{"10 sec", units::time, "; write s"}, Refused{"10 cm/Sec", units::velocity, "; write s"},
