@@ -57,12 +57,14 @@ void removeFiles(const fs::path& folder, const Beginnings& beginnings, std::stri
   for (const fs::path& file : files) removeFile(file);
 }
 
-constexpr std::string_view tableKinds[] = {"probe_", "line_", "boundary_", "wall_", "deposit_", "sizes_", "joint_"};
+constexpr std::string_view tableKinds[] = {"probe_",   "line_",  "boundary_", "wall_",
+                                           "deposit_", "sizes_", "joint_",    "streamline_"};
 
 // Of an earlier run: its tables, and their folder where nothing else is in it; cells that failed; and what only some
 // runs leave, by names that other files may have, so that this is for folders of runs alone.
 constexpr std::array<std::string_view, 1> failedCells{RunFolder::failedCellPrefix};
-constexpr std::array<std::string_view, 4> someLeave{"size_distributions.", "share_distributions.", "classes_", "soot."};
+constexpr std::array<std::string_view, 6> someLeave{"size_distributions.", "share_distributions.", "classes_", "soot.",
+                                                    "spectrum.csv",        "closure.csv"};
 
 void removeTables(const fs::path& folder) {
   const fs::path tables = folder / RunFolder::tableFolder;
@@ -72,6 +74,31 @@ void removeTables(const fs::path& folder) {
 }
 
 enum class Earlier { refused, replaced, continued };
+
+bool holdsRun(const fs::path& folder) {
+  std::error_code error;
+  const auto isThere = [&](const char* name) { return fs::exists(folder / name, error); };
+  return std::ranges::any_of(runFiles, isThere) || !CheckpointFolder(folder).checkpoints().empty();
+}
+
+// The files of an earlier run, but for its checkpoints where it goes on, and those of its runs on coarser meshes.
+void removeRun(const fs::path& folder, Earlier earlier) {
+  const bool used = holdsRun(folder);
+  for (const char* name : runFiles) removeFile(folder / name);
+  removeFiles(folder, failedCells, ".yaml");
+  if (used) removeFiles(folder, someLeave, ".csv");
+  removeTables(folder);
+  if (earlier == Earlier::continued) return;
+  CheckpointFolder(folder).removeAllBut({});
+  std::error_code error;
+  for (int level = 1; used; ++level) {
+    const fs::path coarser = folder / RunFolder::coarser(level);
+    if (!fs::is_directory(coarser, error)) return;
+    if (!holdsRun(coarser)) continue;
+    removeRun(coarser, earlier);
+    if (fs::is_empty(coarser, error)) fs::remove(coarser, error);
+  }
+}
 
 // Throws on rank 0 only.
 std::shared_ptr<FolderLock> prepareHere(const fs::path& path, Earlier earlier) {
@@ -84,19 +111,12 @@ std::shared_ptr<FolderLock> prepareHere(const fs::path& path, Earlier earlier) {
   }
   std::shared_ptr<FolderLock> lock;
   if (fs::exists(path, error)) lock = std::make_shared<FolderLock>(path);
-  bool used = false;
-  for (const char* name : runFiles) used = used || fs::exists(path / name, error);
-  used = used || !CheckpointFolder(path).checkpoints().empty();
-  if (used && earlier == Earlier::refused) {
+  if (earlier == Earlier::refused && holdsRun(path)) {
     throw InputError(
         fmt::format("{}: this folder holds {} already. Choose another with --out DIR, or replace that run with --force",
                     path.string(), stateOf(path)));
   }
-  for (const char* name : runFiles) removeFile(path / name);
-  removeFiles(path, failedCells, ".yaml");
-  if (used) removeFiles(path, someLeave, ".csv");
-  removeTables(path);
-  if (earlier != Earlier::continued) CheckpointFolder(path).removeAllBut({});
+  removeRun(path, earlier);
   fs::create_directories(path, error);
   if (error == std::errc::no_space_on_device) refuseWrite(path, error.value());
   if (error) throw InputError(fmt::format("{}: the folder cannot be made: {}", path.string(), error.message()));

@@ -35,6 +35,8 @@ class RunFolder {
   [[nodiscard]] std::filesystem::path failedCell(std::int64_t cell) const {
     return path_ / (failedCellPrefix + std::to_string(cell) + ".yaml");
   }
+  // Of a run on a coarser mesh before this one, 1 the finest: a folder of a run below this one.
+  static std::string coarser(int level) { return "coarser_" + std::to_string(level); }
   // Tables that a deck asks for, by what they are of; the folder is there while there are any.
   static constexpr const char* tableFolder = "tables";
   [[nodiscard]] std::filesystem::path table(const std::string& name) const {

@@ -84,15 +84,23 @@ TEST_F(RunFolders, LoseTheOldRunAndNothingElseWithForce) {
 // What some runs alone leave goes too, but where no run was.
 TEST_F(RunFolders, KeepNoTableOfAnotherRun) {
   for (const bool hasRun : {false, true}) {
-    for (const char* name : {"size_distributions.csv", "classes_primaries.csv", "soot.csv", "mine.csv"}) put(name, "x");
-    if (test::worldRank() == 0) fs::create_directories(folder / "tables");
-    for (const char* name : {"tables/wall_low.csv", "tables/deposit_low.csv", "tables/line_a.csv"}) put(name, "x");
+    const auto someLeave = {"size_distributions.csv", "classes_primaries.csv", "soot.csv", "spectrum.csv",
+                            "closure.csv"};
+    for (const char* name : someLeave) put(name, "x");
+    put("mine.csv", "x");
+    for (const char* below : {"tables", "coarser_1/tables", "coarser_2"})
+      if (test::worldRank() == 0) fs::create_directories(folder / below);
+    for (const char* name : {"tables/wall_low.csv", "tables/deposit_low.csv", "tables/line_a.csv",
+                             "tables/streamline_7.csv", "coarser_1/history.csv", "coarser_1/results.h5",
+                             "coarser_1/tables/line_a.csv", "coarser_2/history.csv", "coarser_2/mine.csv"})
+      put(name, "x");
     if (hasRun) put("run.json", "{}");
     (void)RunFolder::prepare(folder, true, MPI_COMM_WORLD);
-    for (const char* name : {"size_distributions.csv", "classes_primaries.csv", "soot.csv"})
-      EXPECT_EQ(fs::exists(folder / name), !hasRun) << name;
+    for (const char* name : someLeave) EXPECT_EQ(fs::exists(folder / name), !hasRun) << name;
     EXPECT_FALSE(fs::exists(folder / "tables"));
-    EXPECT_TRUE(fs::exists(folder / "mine.csv"));
+    EXPECT_EQ(fs::exists(folder / "coarser_1"), !hasRun);
+    EXPECT_EQ(fs::exists(folder / "coarser_2/history.csv"), !hasRun);
+    for (const char* name : {"mine.csv", "coarser_2/mine.csv"}) EXPECT_TRUE(fs::exists(folder / name)) << name;
     MPI_Barrier(MPI_COMM_WORLD);
   }
 }

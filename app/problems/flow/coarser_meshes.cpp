@@ -52,7 +52,7 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, cons
                                  error.what())});
       continue;
     }
-    const RunFolder own = RunFolder::prepare(folder.path() / fmt::format("coarser_{}", level), true, comm);
+    const RunFolder own = RunFolder::prepare(folder.path() / RunFolder::coarser(level), true, comm);
     FlowLoop loop(comm, flowCase);
     if (rank == 0) fmt::print("a coarser mesh first, of {} cells\n", loop.cells());
     std::filesystem::path found = own.results();
