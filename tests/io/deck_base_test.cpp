@@ -58,6 +58,13 @@ TEST(DeckBase, ListsAndValuesReplaceThoseOfTheBase) {
   EXPECT_DOUBLE_EQ(deck.quantity("time.end"), 1e-3);
 }
 
+// Also where that is a mistake: what a deck says is never passed over.
+TEST(DeckBase, ValuesReplaceMapsAndMapsReplaceValues) {
+  const Folder value("base: base.yaml\ntime: 1 ms\n"), map("base: base.yaml\nproblem: {end: 1 ms}\n");
+  EXPECT_THAT(value.refusal(), StartsWith(value.path.string() + ":2:7: time: expected a map of keys"));
+  EXPECT_THAT(map.refusal(), StartsWith(map.path.string() + ":2:10: problem: "));
+}
+
 TEST(DeckBase, SettingsGoOverBoth) {
   const Folder folder("base: base.yaml\nseed: 7\n");
   EXPECT_EQ(folder.deck({"seed=8"}).integer("seed"), 8);

@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <optional>
 
 #include "core/errors.hpp"
 #include "io/table_column.hpp"
+#include "io/table_columns.hpp"
 #include "tests/every_module.hpp"
 #include "tests/messages.hpp"
 #include "tests/scratch.hpp"
@@ -59,6 +61,19 @@ TEST_F(Tables, UnitsStandInBracketsWithABlankOrWithout) {
     EXPECT_EQ(nameAndUnit(species), (Pair{species, ""}));
   const GridTable table = read("z(mm),velocity[cm/s]\r0,10\r2,30\r");
   EXPECT_NEAR(table.value(0, std::array{9.0, 1e-3, 9.0}), 0.2, 1e-15);
+}
+
+// In letters of any case but those of one letter; a number may be the name of a column that does not count.
+TEST(TableColumns, AreFoundByTheirNames) {
+  const TextTable table = readCsv("t,T,TIME of day,Speed [cm/s],2,speed\n0,300,noon,7,a,8\n");
+  const TableColumns columns(table);
+  EXPECT_EQ(columns.find({"time", "t"}), 0U);
+  EXPECT_EQ(columns.find({"temperature", "T"}), 1U);
+  EXPECT_EQ(columns.find({"Time of Day"}), 2U);
+  EXPECT_EQ(columns.find({"z"}), std::nullopt);
+  EXPECT_THAT(columns.read(3, units::velocity), testing::ElementsAre(testing::DoubleEq(0.07)));
+  EXPECT_THAT(messageOf<InputError>([&] { (void)columns.find({"speed"}); }),
+              HasSubstr("two columns say the same, 'Speed [cm/s]' and 'speed'"));
 }
 
 TEST_F(Tables, SpanAGridInAnyOrder) {

@@ -4,9 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include "core/errors.hpp"
 #include "core/modules.hpp"
+#include "io/unit_symbols.hpp"
 
 namespace lampblack::io {
 namespace {
@@ -93,6 +96,23 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"3 degC^2", units::temperature, "degC cannot be part of a longer unit"},
         Refused{"3 kg m", units::length, "a quantity in kg m"}, Refused{"1 2 m", units::length, "cannot be read"},
         Refused{"+-3 m", units::length, "expected a length"}, Refused{"0x10 m", units::length, "not a unit"}));
+
+// Units without prefixes get none by a guess.
+TEST(Units, WhatIsGuessedIsAUnit) {
+  for (const char* none : {"MATM", "mdeg", "kTORR"}) EXPECT_EQ(units::unitAsWrittenHere(none), "") << none;
+  EXPECT_EQ(units::unitAsWrittenHere("kpa"), "; did you mean kPa?");
+  EXPECT_EQ(units::unitAsWrittenHere("HZ"), "; did you mean Hz?");
+  EXPECT_EQ(units::unitAsWrittenHere("ATM"), "; did you mean atm?");
+}
+
+TEST(Units, PrefixesArePowersOfTen) {
+  const std::pair<const char*, double> known[] = {{"f", 1e-15},     {"p", 1e-12},     {"n", 1e-9}, {"u", 1e-6},
+                                                  {"\u00b5", 1e-6}, {"\u03bc", 1e-6}, {"m", 1e-3}, {"c", 1e-2},
+                                                  {"d", 1e-1},      {"da", 1e1},      {"h", 1e2},  {"k", 1e3},
+                                                  {"M", 1e6},       {"G", 1e9},       {"T", 1e12}};
+  for (const auto& [prefix, factor] : known)
+    EXPECT_EQ(units::parseUnit(std::string(prefix) + "J").factor, factor) << prefix;
+}
 
 TEST(Units, EveryNamedDimensionReadsItsOwnExampleAndSiUnit) {
   for (const units::Dimension& dimension :
