@@ -19,10 +19,6 @@ class ConstantPressureReactor {
   struct Options {
     double relativeTolerance = 1e-6;
     double absoluteTolerance = 1e-12;  // of a mass fraction
-    // A mass fraction below this counts as this in the rates (ReactorSystem). Errors of the tolerance's size stay in the
-    // range where rates are smooth.
-    double belowZero = 100.0;  // of absoluteTolerance
-    [[nodiscard]] double leastFraction() const { return -belowZero * absoluteTolerance; }
     int maxSteps = 20000;  // of CVODE
     // A cell is skipped, i.e. advanced by one explicit trapezoid, if its chemistry changes no mass fraction by more
     // than this over the interval, at the rates of its start and of its end, and those differ so little that the error
@@ -32,6 +28,10 @@ class ConstantPressureReactor {
     // Zero: CVODE alone. In lanes, where a step costs a fifth, laneSteps times as many.
     int rosenbrockSteps = 10;
     static constexpr int laneSteps = 4;
+    double belowZero = 100.0;  // of absoluteTolerance: how far rates follow a mass fraction
+    // A mass fraction below this counts as this in the rates (ReactorSystem). Errors of the tolerance's size stay in the
+    // range where rates are smooth.
+    [[nodiscard]] double leastFraction() const { return -belowZero * absoluteTolerance; }
   };
 
   struct Cell {
