@@ -67,8 +67,8 @@ TEST(GasTable, NamesMayBeInAnyCaseAndPressureIsAlsoP) {
 
 // The rate stands between a row and the next; the column may have its former name, with a note by the first rank.
 TEST(GasTable, HasTheNumberLossRateByEitherName) {
-  for (const bool isFormer : {false, true}) {
-    const std::string name = isFormer ? "thinning" : "number_loss_rate";
+  for (const std::string name : {"number_loss_rate", "thinning", "Thinning"}) {
+    const bool isFormer = name != "number_loss_rate";
     testing::internal::CaptureStderr();
     const GasHistory gas = historyOf("t,T,p,X_H2," + name + " [1/s]\n0,300,1e5,1,20\n1,300,1e5,1,0\n");
     const std::string told = testing::internal::GetCapturedStderr();
@@ -79,6 +79,21 @@ TEST(GasTable, HasTheNumberLossRateByEitherName) {
   }
   EXPECT_THAT(refusalOf("t,T,p,X_H2,thinning,number_loss_rate\n0,300,1e5,1,2,2\n"),
               HasSubstr("two columns say the same, 'thinning' and 'number_loss_rate'; leave one out"));
+}
+
+// A fraction that is passed over would be missing in the gas.
+TEST(GasTable, PassesOverNoFractionInSilence) {
+  const GasHistory gas = historyOf("t,T,p,X_H2,x_O2\n0,300,1e5,0.75,0.25\n");
+  EXPECT_EQ(gas.fractions[hydrogen().speciesIndex("O2")], 0.25);
+  EXPECT_THAT(refusalOf("t,T,p,X_H2,y_OH\n0,300,1e5,1,0.1\n"),
+              HasSubstr("'y_OH' is of mass fractions; write mole fractions, \"X_OH"));
+  EXPECT_EQ(refusalOf("t,T,p,X_H2,Y_H2\n0,300,1e5,1,1\n"), "accepted") << "it is there by its mole fraction";
+  testing::internal::CaptureStderr();
+  static_cast<void>(historyOf("t,Temperature,p,X_H2,O2,X_XENON,place\n0,300,1e5,1,0.1,0,here\n"));
+  const std::string told = testing::internal::GetCapturedStderr();
+  const bool tells = test::worldRank() == 0;
+  EXPECT_EQ(told.find("not known here are left out: O2, place;") != std::string::npos, tells) << told;
+  EXPECT_EQ(told.find("does not have are left out: XENON") != std::string::npos, tells) << told;
 }
 
 TEST(GasTable, SaysWhatIsMissingOrWrong) {

@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
+#include "core/letter_case.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
 #include "io/deck_former_names.hpp"
@@ -28,7 +30,18 @@ struct Known {
 
 constexpr const char* formerLossRate = "thinning";  // of the column number_loss_rate
 
-GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::vector<std::string>& unknown) {
+// What of a table is left out.
+struct LeftOut {
+  std::vector<std::string> species, columns;
+};
+
+// The name behind "X_" or "Y_", in letters of either case; none for other columns.
+std::optional<std::string> nameBehind(std::string_view prefix, const std::string& column) {
+  if (column.size() <= prefix.size() || !sameInAnyCase(column.substr(0, prefix.size()), prefix)) return std::nullopt;
+  return column.substr(prefix.size());
+}
+
+GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, LeftOut& leftOut) {
   const Known known[] = {
       {"time", "t", "t", units::time, &GasHistory::time},
       {"temperature", "T", "T", units::temperature, &GasHistory::temperature},
@@ -38,11 +51,13 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
   GasHistory history;
   const std::size_t rows = table.rows.size(), species = mechanism.numSpecies();
   if (rows == 0) throw InputError("the table has no rows");
+  std::vector<bool> isKnown(columns.size(), false);
   for (const Known& one : known) {
     const auto column = columns.find({one.name, one.symbol, one.otherSymbol});
-    if (column)
+    if (column) {
+      isKnown[*column] = true;
       history.*one.values = columns.read(*column, one.dimension);
-    else if (one.isNeeded)
+    } else if (one.isNeeded)
       throw InputError(fmt::format("expected a column '{}' or '{}', as \"{} [{}]\"; found {}", one.name, one.symbol,
                                    one.name, units::siUnit(one.dimension), columns.listed()));
   }
@@ -50,10 +65,14 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
   std::vector<bool> has(species, false);
   for (std::size_t column = 0; column < columns.size(); ++column) {
     const std::string& name = columns.name(column);
-    if (!name.starts_with("X_")) continue;
-    const auto k = mechanism.findSpecies(name.substr(2));
+    const auto called = nameBehind("X_", name);
+    if (!called) {
+      if (!isKnown[column]) leftOut.columns.push_back(name);
+      continue;
+    }
+    const auto k = mechanism.findSpecies(*called);
     if (!k) {
-      unknown.push_back(name.substr(2));
+      leftOut.species.push_back(*called);
       continue;
     }
     if (has[*k]) throw InputError(fmt::format("two columns are called '{}'", name));
@@ -65,6 +84,15 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
     throw InputError(
         fmt::format("expected columns of mole fractions, \"X_H2 [1]\", of species that the mechanism has; found {}",
                     columns.listed()));
+  for (const std::string& name : leftOut.columns) {
+    const auto called = nameBehind("Y_", name);
+    const auto k = called ? mechanism.findSpecies(*called) : std::nullopt;
+    if (k && !has[*k])
+      throw InputError(
+          fmt::format("the column '{}' is of mass fractions; write mole fractions, \"X_{} [1]\", or leave it "
+                      "out",
+                      name, *called));
+  }
   if (!history.numberLossRate.empty()) history.numberLossRate.pop_back();  // behind the last row there is nothing
   return history;
 }
@@ -73,19 +101,22 @@ GasHistory historyOf(const TextTable& table, const Mechanism& mechanism, std::ve
 
 GasHistory readGasTable(const std::filesystem::path& file, const Mechanism& mechanism) {
   const std::string text = readTextFile(file, "a history of a gas");
-  std::vector<std::string> unknown;
+  LeftOut leftOut;
   try {
     const TextTable table = readCsv(text);
-    GasHistory history = historyOf(table, mechanism, unknown);
+    GasHistory history = historyOf(table, mechanism, leftOut);
     for (const std::string& column : table.columns)
-      if (nameAndUnit(column).first == formerLossRate)
+      if (isColumnName(nameAndUnit(column).first, formerLossRate))
         printWarnings(
             {fmt::format("{}: the column {} is called number_loss_rate since version {}; write the new name, as "
                          "version {} does not read the old one",
                          file.string(), formerLossRate, presentNamesBegin, formerNamesEnd)});
-    if (!unknown.empty())
+    if (!leftOut.species.empty())
       printWarnings({fmt::format("{}: columns of species that the mechanism does not have are left out: {}",
-                                 file.string(), fmt::join(unknown, ", "))});
+                                 file.string(), fmt::join(leftOut.species, ", "))});
+    if (!leftOut.columns.empty())
+      printWarnings({fmt::format("{}: columns that are not known here are left out: {}; a mole fraction is X_<species>",
+                                 file.string(), fmt::join(leftOut.columns, ", "))});
     return history;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", file.string(), error.what()));
