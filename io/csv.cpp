@@ -12,8 +12,9 @@ bool isBlank(char c) {
   return c == ' ' || c == '\t';
 }
 
-// What parts the fields of a table, by its line of names.
-char separatorOf(std::string_view text) {
+}  // namespace
+
+std::optional<char> separatorOf(std::string_view text) {
   bool quoted = false, comment = false, begins = true, hasSemicolon = false, hasTabulator = false;
   for (const char c : text) {
     if (c == '\n') {
@@ -29,8 +30,11 @@ char separatorOf(std::string_view text) {
       begins = begins && (isBlank(c) || c == '\r');
     }
   }
-  return hasSemicolon ? ';' : hasTabulator ? '\t' : ',';
+  if (hasSemicolon) return ';';
+  return hasTabulator ? std::optional('\t') : std::nullopt;
 }
+
+namespace {
 
 std::string quotedWhereNeeded(const std::string& field) {
   const bool hasBlanksAround = !field.empty() && (isBlank(field.front()) || isBlank(field.back()));
@@ -81,7 +85,7 @@ TextTable readCsv(const std::string& text) {
   bool quoted = false, comment = false, hadQuotes = false;
   std::size_t line = 1, begins = 1;
   const std::size_t start = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
-  const char separator = separatorOf(std::string_view(text).substr(start));
+  const char separator = separatorOf(std::string_view(text).substr(start)).value_or(',');
   const auto endField = [&] {
     while (!hadQuotes && !field.empty() && isBlank(field.back())) field.pop_back();
     row.push_back(std::move(field));

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "core/modules.hpp"
@@ -28,8 +30,12 @@ std::string csvText(const TextTable& table);
 std::string csvRows(std::span<const double> rows, std::size_t width);
 std::string csvTable(const std::vector<Quantity>& columns, std::span<const double> rows);
 
+// What parts the fields, by the first line that is neither empty nor a comment: a comma outside of quotes, where there
+// is none a semicolon, else a tabulator; nothing where there is none of them.
+[[nodiscard]] std::optional<char> separatorOf(std::string_view text);
+
 // Lines that begin with # and a byte-order mark are skipped, as are blanks around a field that does not stand in
-// quotes. Where the first line has no comma, semicolons or else tabulators part the fields, as spreadsheets write them.
+// quotes. Fields are parted as separatorOf says, for spreadsheets write semicolons or tabulators, too.
 // InputError where a row has another number of fields than the first line.
 TextTable readCsv(const std::string& text);
 

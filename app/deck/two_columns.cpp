@@ -12,6 +12,7 @@
 
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
+#include "io/csv.hpp"
 #include "io/table_column.hpp"
 
 namespace lampblack::app {
@@ -21,10 +22,10 @@ std::string trimmed(const std::string& line) {
   return line.substr(0, line.find('\r'));
 }
 
-// The fields of a line, without the blanks and quotes around them: between semicolons, commas where there are none, or
-// blanks where there are neither.
+// The fields of a line, without the blanks and quotes around them: between commas or semicolons as in other tables, or
+// between any blanks where there are neither.
 std::vector<std::string> fieldsOf(const std::string& line) {
-  const char separator = line.find(';') != std::string::npos ? ';' : line.find(',') != std::string::npos ? ',' : ' ';
+  const char found = separatorOf(line).value_or(' '), separator = found == '\t' ? ' ' : found;
   std::vector<std::string> fields(1);
   bool quoted = false;
   for (const char c : line) {

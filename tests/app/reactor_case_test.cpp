@@ -101,8 +101,9 @@ TEST(ReactorCase, AProfileFileLosesNoLine) {
 }
 
 TEST(ReactorCase, AProfileFileSaysItsUnits) {
-  for (const std::string header : {"time [ms],T [degC]", "time[ms],T[degC]", "time (ms),T (degC)", "time [ms] T [degC]",
-                                   "\"time [ms]\",\"gas, measured [degC]\"", "time (ms), T [degC]"}) {
+  for (const std::string header :
+       {"time [ms],T [degC]", "time[ms],T[degC]", "time (ms),T (degC)", "time [ms] T [degC]",
+        "\"time [ms]\",\"gas, measured [degC]\"", "\"time; shifted [ms]\",T [degC]", "time (ms), T [degC]"}) {
     const bool commas = header.find(',') != std::string::npos;
     EXPECT_EQ(profileOf(header + (commas ? "\n0,26.85\n2000,126.85\n" : "\n0 26.85\n2000 126.85\n"), 1.0),
               "300 400 at 350")
