@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/run/shipped_case.hpp"
 #include "core/nearest_name.hpp"
 
 namespace lampblack::app {
@@ -16,8 +17,9 @@ std::string unknownCommand(const CLI::App& app, const std::string& word) {
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; }))
     names.push_back(command->get_name());
   std::error_code error;
-  if (std::filesystem::exists(word, error))
-    return fmt::format("'{0}' is a file, not a command; a deck is run by: lampblack run {0}", word);
+  if (std::filesystem::is_regular_file(word, error))
+    return isStudy(word) ? fmt::format("'{0}' is a file, not a command; a study is run by: lampblack sweep {0}", word)
+                         : fmt::format("'{0}' is a file, not a command; a deck is run by: lampblack run {0}", word);
   return fmt::format("there is no command '{}'{} Commands: {}", word,
                      didYouMean(word, names).empty() ? "." : didYouMean(word, names), fmt::join(names, ", "));
 }

@@ -218,7 +218,10 @@ def mistake(check: Checker, name: str, arguments: tuple, words: tuple) -> None:
 def command_line(check: Checker) -> None:
     """Words that are no command or option are answered by what was meant."""
     deck = str(running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml")
+    study = str(running.SOURCE / "cases/flame1d/free_hydrogen/study.yaml")
     for words, told in (((deck,), f"is a file, not a command; a deck is run by: lampblack run {deck}"),
+                        ((study,), f"a study is run by: lampblack sweep {study}"),
+                        ((str(running.SOURCE / "cases"),), "there is no command '"),
                         (("chekc", deck), "there is no command 'chekc'; did you mean 'check'? Commands: run, check"),
                         (("run", deck, "-np", "2"), "'lampblack run' has no option '-np'; did you mean '--ranks'?"),
                         (("run", deck, "--fource"), "has no option '--fource'; did you mean '--force'?"),
