@@ -19,7 +19,7 @@ class ConstantPressureReactor {
   struct Options {
     double relativeTolerance = 1e-6;
     double absoluteTolerance = 1e-12;  // of a mass fraction
-    int maxSteps = 20000;  // of CVODE
+    int maxSteps = 20000;              // of CVODE
     // A cell is skipped, i.e. advanced by one explicit trapezoid, if its chemistry changes no mass fraction by more
     // than this over the interval, at the rates of its start and of its end, and those differ so little that the error
     // of the trapezoid is below absoluteTolerance. Zero never skips.
@@ -29,8 +29,8 @@ class ConstantPressureReactor {
     int rosenbrockSteps = 10;
     static constexpr int laneSteps = 4;
     double belowZero = 100.0;  // of absoluteTolerance: how far rates follow a mass fraction
-    // A mass fraction below this counts as this in the rates (ReactorSystem). Errors of the tolerance's size stay in the
-    // range where rates are smooth.
+    // A mass fraction below this counts as this in the rates (ReactorSystem). Errors of the tolerance's size stay in
+    // the range where rates are smooth.
     [[nodiscard]] double leastFraction() const { return -belowZero * absoluteTolerance; }
   };
 

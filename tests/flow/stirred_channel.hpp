@@ -30,9 +30,8 @@ class Dust : public Operator {
   void addSlopes(const State& state, const Slopes& slopes) override {
     const std::size_t all = state.scalars.size();
     if (slopes.carried.empty()) return;
-    forEach(state, [&](std::size_t i, double amount) {
-      slopes.carried[i * all + i % all] -= 2.0 * coagulates * amount;
-    });
+    forEach(state,
+            [&](std::size_t i, double amount) { slopes.carried[i * all + i % all] -= 2.0 * coagulates * amount; });
   }
 
  private:
@@ -65,9 +64,7 @@ struct StirredChannel {
     std::vector<ScalarBlock> blocks{
         TurbulenceOperator::blockOf(*model, box->context.boundaries, std::vector<FreeStream>(4, stream))};
     if (isDusty) blocks.push_back(Dust::block(box->context));
-    state.emplace(box->stateWith(blocks, [&](const auto&) {
-      return Box::Local{{0.0, speed}, 300.0, air};
-    }));
+    state.emplace(box->stateWith(blocks, [&](const auto&) { return Box::Local{{0.0, speed}, 300.0, air}; }));
     transport.emplace(box->context, *state);
     turbulence.emplace(box->context, *state, model, transport->properties());
     turbulence->setStart(*state, stream);

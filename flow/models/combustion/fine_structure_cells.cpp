@@ -174,7 +174,9 @@ void FineStructureCells::findSlopes(const Gas& gas, std::span<const double> Y, s
   if (!steps_.advance({gas.mixing.fineTime, 0.0, toleranceOfSlopes, absoluteToleranceOfSlopes, mostStepsOfSlopes}, y,
                       work, {}, slopes))
     throw NumericsError(fmt::format("the reactions of fine structures have no slopes: {}",
-                                    system_.refusal().empty() ? fmt::format("they need more than {} steps", mostStepsOfSlopes) : system_.refusal()));
+                                    system_.refusal().empty()
+                                        ? fmt::format("they need more than {} steps", mostStepsOfSlopes)
+                                        : system_.refusal()));
   const double speed = gas.mixing.reactingShare / gas.mixing.fineTime;
   for (std::size_t j = 0; j < width; ++j) {
     slopes[j * width + j] -= 1.0;
