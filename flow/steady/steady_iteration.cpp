@@ -72,7 +72,7 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
       newton_.emplace(context, state, residual_, gas_);
     else
       newton_.emplace(context, state, residual_, gas_, &*carried_, operators_);
-    if (!state.eddyViscosity.empty() && context.mechanism.numReactions() > 0)
+    if (options.oneTime && !state.eddyViscosity.empty() && context.mechanism.numReactions() > 0)
       step_.emplace(context, state, residual_, gas_, *carried_, operators_);
   }
   residual_.evaluate(state);

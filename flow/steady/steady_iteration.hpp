@@ -43,6 +43,7 @@ class SteadyIteration {
     // The same, but what is left of all that is carried, above which, where gas that eddies stir reacts, iterations are
     // steps of one time (ImplicitStep): Newton's method after them knows the eddies.
     double inTime = 1e-5;
+    bool oneTime = false;  // whether they are
   };
 
   // Collective. `operators`: whose rates act in the cells; they have to live as long. The state is evaluated.

@@ -82,7 +82,7 @@ TEST(ImplicitSteps, LeadToTheSteadyState) {
   Box& b = *channel.box;
   State& state = *channel.state;
   State sought = state;
-  SteadyIteration iteration(b.context, sought, {.inTime = 1e300}, channel.operators);
+  SteadyIteration iteration(b.context, sought, {.inTime = 1e300, .oneTime = true}, channel.operators);
   for (int i = 0; i < 100; ++i)
     if (iteration.iterate(sought).measure < 1e-10) break;
   EXPECT_LT(iteration.last().measure, 1e-10);
@@ -189,7 +189,7 @@ TEST(ImplicitSteps, CountTheWorstCellOnlyWhereCellsAreHeld) {
 TEST(ImplicitSteps, AreTheIterationsOfWhatEddiesStir) {
   StirredChannel channel;
   Box& b = *channel.box;
-  SteadyIteration iteration(b.context, *channel.state, {}, channel.operators);
+  SteadyIteration iteration(b.context, *channel.state, {.oneTime = true}, channel.operators);
   const SteadyIteration::Outcome first = iteration.iterate(*channel.state);
   EXPECT_TRUE(first.taken);
   EXPECT_GT(first.newtonIterations, 0);

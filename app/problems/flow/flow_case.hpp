@@ -75,6 +75,7 @@ struct TimeControl {
   struct Search : SteadySearch::Options {
     std::optional<double> time = {};  // s, as SteadyControl::time
     bool triesWithoutFlame = false;   // whether there are attempts in gas that cannot burn
+    bool oneTime = false;             // iterations are implicit steps of one time until a flame in eddies stands
     int coarserMeshes = 0;            // on which the state is sought first
     // What came of the search on each of these, the coarsest first; of the mesh itself nothing.
     struct Coarser {

@@ -19,8 +19,8 @@ constexpr const char* mode = "time.mode";
 constexpr const char* steadySection = "time.steady";
 constexpr const char* stabilitySection = "time.steady.stability";
 constexpr int usualAttempts = 2;
-// Iterations without gain of a flame in eddies, which are steps of one time until it stands.
-constexpr int patienceInEddies = 400;
+// Iterations without gain where they are steps of one time until the flame stands.
+constexpr int patienceInOneTime = 400;
 
 // Of a mesh on which a flame is sought from the deck's own start; on finer ones from that of a coarser.
 constexpr int mostCellsAlone = 3000, mostCoarserMeshes = 5;
@@ -103,6 +103,10 @@ DeckKeys<TimeControl::Search> searchKeys() {
                "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "
                "a gas at least 500 K hotter becomes that gas. At most twice; the run says so. false: what is not "
                "lit stays cold.");
+  keys.boolean("one_time", &Search::oneTime, rules(),
+               "Of a flame in eddies: iterations are implicit steps of one time for all cells until it stands, for a "
+               "flame that was just lit or whose end still moves, where iterations in pseudo-times of the cells' own "
+               "run away. false: those, which need no flow far from the flame to have come to rest.");
   keys.integer("coarser_meshes", &Search::coarserMeshes, rules().optional().atLeast(0).atMost(mostCoarserMeshes),
                fmt::format("Number of coarser meshes, each of half the cells of the next in every direction (of a "
                            "plane box), on which the steady state is sought first: what is found on one is the start "
@@ -199,10 +203,13 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   TimeControl::Search search;
   search.attempts = usualAttempts;
   search.reacts = flowCase.mechanism->numReactions() > 0;
-  if (search.reacts && deck.has("turbulence")) search.patience = patienceInEddies;
   search.coarserMeshes = usualCoarserMeshes(deck, flowCase);
   if (!deck.has(steadySection)) return search;
   searchKeys().read(deck, search, steadySection);
+  if (search.oneTime && !(search.reacts && deck.has("turbulence")))
+    throw deck.error("time.steady.one_time",
+                     "steps of one time are for a gas that reacts in eddies; this flow has none");
+  if (search.oneTime) search.patience = patienceInOneTime;
   search.triesWithoutFlame = deck.isGiven("time.steady.attempts");
   if (search.coarserMeshes > 0 && !isPlaneBox(flowCase))
     throw deck.error("time.steady.coarser_meshes",

@@ -105,6 +105,7 @@ void FlowLoop::searchOn(Outputs& outputs) {
 void FlowLoop::makeIteration() {
   SteadyIteration::Options options{.scheme = case_.flow.velocityScheme};
   const int before = search_->isAttempt() ? search_->attempts() : search_->returns();
+  options.oneTime = case_.time.search->oneTime;
   if (before % 2 == 1) options.leastFlowCourant = options.mostFlowCourant;
   backup_.save([this](StateArchive& archive) { saveOrLoadParts(archive); });
   beforeIterations_ = steadiness_;
