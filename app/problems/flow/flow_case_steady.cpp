@@ -103,10 +103,12 @@ DeckKeys<TimeControl::Search> searchKeys() {
                "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "
                "a gas at least 500 K hotter becomes that gas. At most twice; the run says so. false: what is not "
                "lit stays cold.");
-  keys.boolean("one_time", &Search::oneTime, rules(),
-               "Of a flame in eddies: iterations are implicit steps of one time for all cells until it stands, for a "
-               "flame that was just lit or whose end still moves, where iterations in pseudo-times of the cells' own "
-               "run away. false: those, which need no flow far from the flame to have come to rest.");
+  keys.boolean(
+      "one_time", &Search::oneTime, rules(),
+      "true: until a flame in eddies stands, iterations are implicit steps of one time for all cells; for a flame "
+      "that was just lit or whose end still moves, as iterations in pseudo-times of the cells' own run away "
+      "from it. false: iterations in pseudo-times from the first on, by which a flame that stands beside slow "
+      "air is found sooner.");
   keys.integer("coarser_meshes", &Search::coarserMeshes, rules().optional().atLeast(0).atMost(mostCoarserMeshes),
                fmt::format("Number of coarser meshes, each of half the cells of the next in every direction (of a "
                            "plane box), on which the steady state is sought first: what is found on one is the start "
