@@ -1,10 +1,10 @@
 #include "flow/steady/implicit_step.hpp"
 
-#include <mpi.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "flow/stepping/time_step.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -45,21 +45,8 @@ void ImplicitStep::saveOrLoad(StateArchive& archive) {
   archive.shared("steady_implicit_time_refused", refused_);
 }
 
-// The least time in which other gas takes the place of a cell's.
-double ImplicitStep::renewal(const State& state) const {
-  const Mesh& m = context_.mesh;
-  std::vector<double> through(static_cast<std::size_t>(m.owned), 0.0);
-  for (int face = 0; face < m.faces; ++face)
-    for (const int cell : {m.low[face], m.high[face]})
-      if (cell >= 0 && cell < m.owned) through[cell] += 0.5 * std::abs(state.massFlux[face]);
-  double least = 1e300;
-  for (std::size_t c = 0; c < through.size(); ++c)
-    if (through[c] > 0.0) least = std::min(least, state.density[c] * m.volume[c] / through[c]);
-  MPI_Allreduce(MPI_IN_PLACE, &least, 1, MPI_DOUBLE, MPI_MIN, m.comm);
-  return least;
-}
-
 double ImplicitStep::shareLeft(const NewtonKrylov::Left& left, const NewtonKrylov::Left& before, bool isLimited) {
+  if (!(before.sum > 0.0)) return 0.0;  // nothing to do
   const double ofWorst = left.root / before.root;
   return isLimited ? ofWorst : std::min(ofWorst, left.sum / before.sum);
 }
@@ -68,7 +55,7 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
   residual_.evaluate(state);
-  if (!(time_ > 0.0)) time_ = renewal(state);
+  if (!(time_ > 0.0)) time_ = convectiveTimeStep(context_.mesh, state, 1.0);
   for (std::size_t c = 0; c < inertia_.size(); ++c)
     inertia_[c] = state.density[c] * context_.mesh.volume[c] / (time_ * haste[c]);
   const State start = state;

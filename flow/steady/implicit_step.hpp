@@ -3,7 +3,7 @@
 // what is carried, the eddies' variables among it (CarriedUpdate). The eddies' equations, whose sources bend within
 // what a jet's edge takes to cross a cell, would hold all others in as short a time. Steps need no accuracy in time:
 // they follow the flame where iterations in pseudo-times of the cells' own take one cell further than its neighbours,
-// and are a hundred times as long as explicit ones once the flame moves slowly (pseudo-transient continuation: Kelley
+// and are far longer than explicit ones once the flame moves slowly (pseudo-transient continuation: Kelley
 // and Keyes 1998). docs/theory/flow.md, "Iterations".
 #pragma once
 
@@ -53,7 +53,6 @@ class ImplicitStep {
 
  private:
   void lengthen();
-  [[nodiscard]] double renewal(const State& state) const;
 
   const FlowContext& context_;
   FlowResidual& residual_;

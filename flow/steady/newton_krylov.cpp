@@ -104,10 +104,6 @@ void NewtonKrylov::takeInertia(const State& state, const State& start, std::span
     for (std::size_t i = 0; i < d; ++i)
       own[width_ + i] -= inertia * (state.velocity[c * d + i] - start.velocity[c * d + i]);
     if (state.swirls) own[width_ + d] -= inertia * (state.swirl[c] - start.swirl[c]);
-    for (std::size_t s = 0; s < scalars_; ++s) {
-      const std::size_t i = c * scalars_ + s;
-      own[pastFlow_ + s] -= inertia * (state.carried[i] / state.density[c] - start.carried[i] / start.density[c]);
-    }
   }
 }
 

@@ -43,7 +43,7 @@ class NewtonKrylov {
   };
   // Collective. The residual is of the state; inertia (kg/s, owned cells): mass over the cell's pseudo-time. The
   // residual is of some other state then. `start`: the state that the pseudo-time begins with, where that is an earlier
-  // one (ImplicitStep); null: the state itself.
+  // one (ImplicitStep), not where what is carried is an unknown, too; null: the state itself.
   Result advance(State& state, std::span<const double> inertia, double reduction, const State* start = nullptr);
   // Collective, after a step with it: what is left of the equations of that pseudo-time in a state, of which the
   // residual is.

@@ -138,6 +138,8 @@ def main(executable: str, *mpiexec: str) -> int:
             runs[f"turbulent_{model}"] = (CASES / "flow/turbulent_channel/deck.yaml", *running.settings(
                 f"turbulence.model={model}", "time.end=1 ms", "output.interval=1 ms", "output.boundaries=[wall]",
                 f"combustion={{model: {'pasr' if model == 'k_epsilon' else 'laminar'}}}"))
+        runs["one_time"] = (CASES / "flow/hm1e/deck.yaml", *running.settings(
+            "mesh.refinement=0.25", "time={mode: steady, steady: {residual: 1e-2, attempts: 0, steps: 2, iterations: 30, one_time: true}, first_step: 1 us, maximum_step: 1 ms}"))
         # All blocks of an instant: five are soon over.
         runs["flow_ensembles"] = (ensembles, *running.settings(
             "time.end=30 us", "time.maximum_step=2 us", "output.species=[A2]", "particles={description: ensemble, number: 50, shape: aggregates, bins: 5, minimum_number_density: 1e8 1/m^3}",

@@ -382,6 +382,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "'out' is no inlet, nor a wall that has a temperature"},
         Refused{
             "ABranchOfTheMesh", {"time.steady.continuation.key=mesh.refinement"}, "expected 'pressure', or a value"},
+        Refused{"StepsOfOneTimeWithoutEddies",
+                {"time.steady.one_time=true"},
+                "time.steady.one_time: steps of one time are for a gas that reacts in eddies"},
         Refused{"AVesselThatIsFilled", {closed}, "time.mode: a vessel without an outlet"},
         Refused{"AVesselThatIsCooled", {closed, noInlet, "boundaries.cold.temperature=299 K"}, "a vessel without"},
         Refused{
@@ -410,6 +413,26 @@ TEST(SteadyMode, SeeksFlamesOfManyCellsOnCoarserMeshesFirst) {
   EXPECT_EQ(meshes(hydrogenBesideAir({many, "time.steady.coarser_meshes=0"})), 0);
   EXPECT_EQ(meshes(hydrogenBesideAir({"time.steady.coarser_meshes=3"})), 3);
   EXPECT_EQ(meshes(channel({steady, "mesh.refinement=20"})), 0);
+}
+
+TEST(SteadyMode, TakesStepsOfOneTimeOfAFlameInEddiesAlone) {
+  const auto search = [](const std::vector<std::string>& settings) {
+    std::vector<std::string> all{
+        "turbulence={model: sst, wall_distance: infinite, eddy_viscosity_ratio: 1, energy: 0.01 m^2/s^2}"};
+    for (const char* inlet : {"fuel", "air"})
+      for (const char* what : {"turbulence_intensity=0.05", "eddy_viscosity_ratio=1"})
+        all.push_back(fmt::format("boundaries.{}.{}", inlet, what));
+    all.insert(all.end(), settings.begin(), settings.end());
+    return *readFlowCase(hydrogenBesideAir(all)).time.search;
+  };
+  const std::string oneTime = "time.steady.one_time=true";
+  EXPECT_FALSE(search({}).oneTime);
+  EXPECT_TRUE(search({oneTime}).oneTime);
+  EXPECT_GT(search({oneTime}).patience, search({}).patience);
+  EXPECT_THAT(test::messageOf<InputError>([&] {
+                search({oneTime, "time.steady.continuation={maximum_points: 2, key: pressure}"});
+              }),
+              HasSubstr("do not know a load that is sought"));
 }
 
 TEST(SteadyMode, StartsFromACoarserMeshThatBurns) {

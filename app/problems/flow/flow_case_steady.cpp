@@ -178,6 +178,16 @@ bool isPlaneBox(const FlowCase& flowCase) {
   return !flowCase.meshFile && !flowCase.mesh.map && flowCase.dimension == 2;
 }
 
+void requireOneTime(const Deck& deck, TimeControl::Search& search, const FlowCase& flowCase) {
+  const auto refuse = [&](const char* why) { throw deck.error("time.steady.one_time", why); };
+  if (!search.reacts || !deck.has("turbulence"))
+    refuse("steps of one time are for a gas that reacts in eddies; this flow has none");
+  if (search.branch) refuse("steps of one time do not know a load that is sought, too; leave this or that out");
+  if (std::ranges::none_of(flowCase.boundaries, [](const auto& b) { return b.kind == BoundaryKind::Outlet; }))
+    refuse("steps of one time need an outlet, as the pressure of a closed vessel is an unknown, too");
+  search.patience = patienceInOneTime;
+}
+
 int usualCoarserMeshes(const Deck& deck, const FlowCase& flowCase) {
   if (!isPlaneBox(flowCase) || flowCase.mechanism->numReactions() == 0 || deck.has("initial.flow") ||
       deck.has("turbulence"))
@@ -208,10 +218,6 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   search.coarserMeshes = usualCoarserMeshes(deck, flowCase);
   if (!deck.has(steadySection)) return search;
   searchKeys().read(deck, search, steadySection);
-  if (search.oneTime && !(search.reacts && deck.has("turbulence")))
-    throw deck.error("time.steady.one_time",
-                     "steps of one time are for a gas that reacts in eddies; this flow has none");
-  if (search.oneTime) search.patience = patienceInOneTime;
   search.triesWithoutFlame = deck.isGiven("time.steady.attempts");
   if (search.coarserMeshes > 0 && !isPlaneBox(flowCase))
     throw deck.error("time.steady.coarser_meshes",
@@ -220,6 +226,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   search.time = deck.optionalQuantity("time.steady.time");
   if (deck.has(stabilitySection)) search.stability = stabilityKeys().read(deck);
   search.branch = readBranch(deck, search, flowCase);
+  if (search.oneTime) requireOneTime(deck, search, flowCase);
   return search;
 }
 
