@@ -31,8 +31,7 @@ void CarriedTransport::findDrift(const Gas& gas) {
     const double w = m.lowWeight[face];
     const auto mean = [&](std::span<const double> field) { return w * field[low] + (1.0 - w) * field[high]; };
     const double slope = faceSlope(m, face, m.normal[face], temperatureGradient);
-    const double drift = -mean(gas.viscosity) / mean(gas.mean.density) * slope / mean(gas.mean.temperature);
-    driftFlux_[face] = gas.faces.density[face] * m.area[face] * drift;
+    driftFlux_[face] = -m.area[face] * mean(gas.viscosity) * slope / mean(gas.mean.temperature);
   }
   for (int face = m.interiorFaces; face < m.faces; ++face)
     driftFlux_[face] = hasDriftToWall(gas.faces, face) ? driftToWall(gas, face) : 0.0;
@@ -164,7 +163,10 @@ void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces,
   for (int face = 0; face < m.interiorFaces; ++face) {
     const int low = m.low[face], high = m.high[face];
     const double w = m.lowWeight[face];
-    const double metric = faces.density[face] * m.area[face] / m.distance[face];
+    // Whichever way the gas flows: with the density of the gas upwind diffusion would jump where the flow turns round,
+    // and a state with such a face need not have a steady one beside it.
+    const double density = w * state.density[low] + (1.0 - w) * state.density[high];
+    const double metric = density * m.area[face] / m.distance[face];
     for (int s = 0; s < n; ++s) {
       double& g = conductance[face * n + s];
       g = metric * (w * D[low * n + s] + (1.0 - w) * D[high * n + s]);
