@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "core/errors.hpp"
 
 namespace lampblack::io {
@@ -35,6 +38,29 @@ std::optional<char> separatorOf(std::string_view text) {
 }
 
 namespace {
+
+// Of a line; units behind a blank are no fields of their own where blanks part these.
+std::size_t numFields(std::string_view line) {
+  const auto separator = separatorOf(line);
+  bool quoted = false;
+  std::size_t fields = separator ? 1 : 0;
+  char before = ' ';
+  for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (separator)
+      fields += !quoted && c == *separator ? 1 : 0;
+    else if (!quoted && isBlank(before) && !isBlank(c) && std::string_view("\r\n[(").find(c) == std::string_view::npos)
+      ++fields;
+    before = c;
+  }
+  return fields;
+}
+
+// No names: digits, and what else is in numbers and between them.
+bool isNumbers(std::string_view line) {
+  return line.find_first_of("0123456789") != std::string_view::npos &&
+         line.find_first_not_of("0123456789+-.eEdD,; \t\r\"") == std::string_view::npos;
+}
 
 std::string quotedWhereNeeded(const std::string& field) {
   const bool hasBlanksAround = !field.empty() && (isBlank(field.front()) || isBlank(field.back()));
@@ -78,7 +104,26 @@ std::string csvText(const TextTable& table) {
   return text;
 }
 
-TextTable readCsv(const std::string& text) {
+std::string withNamesOutOfComment(std::string text) {
+  std::size_t comment = std::string::npos;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = std::string_view(text).substr(begin, end - begin);
+    const std::size_t first = line.find_first_not_of(" \t\r");
+    if (first != std::string_view::npos && line[first] != '#') {
+      if (comment != std::string::npos && isNumbers(line) &&
+          numFields(std::string_view(text).substr(comment + 1, begin - comment - 1)) == numFields(line))
+        text[comment] = ' ';
+      break;
+    }
+    comment = first == std::string_view::npos ? std::string::npos : begin + first;
+    begin = end + 1;
+  }
+  return text;
+}
+
+TextTable readCsv(const std::string& given) {
+  const std::string text = withNamesOutOfComment(given);
   TextTable table;
   std::vector<std::string> row;
   std::string field;

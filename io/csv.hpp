@@ -34,8 +34,14 @@ std::string csvTable(const std::vector<Quantity>& columns, std::span<const doubl
 // is none a semicolon, else a tabulator; nothing where there is none of them.
 [[nodiscard]] std::optional<char> separatorOf(std::string_view text);
 
+// The text of a table, in which the names may stand in a comment right above the first row, as numpy's savetxt and
+// plotting programs write them ("# time [ms],T [K]"): without its '#'. The row has numbers alone then, as many as the
+// comment has fields.
+[[nodiscard]] std::string withNamesOutOfComment(std::string text);
+
 // Lines that begin with # and a byte-order mark are skipped, as are blanks around a field that does not stand in
-// quotes. Fields are parted as separatorOf says, for spreadsheets write semicolons or tabulators, too.
+// quotes. Fields are parted as separatorOf says, for spreadsheets write semicolons or tabulators, too. The names may
+// stand in a comment, as withNamesOutOfComment says.
 // InputError where a row has another number of fields than the first line.
 TextTable readCsv(const std::string& text);
 

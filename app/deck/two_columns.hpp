@@ -16,8 +16,9 @@ struct TwoColumns {
 };
 
 // Numbers separated by commas or semicolons, as in io/csv.hpp, or blanks. The first line may be a header: one without
-// any number, with units behind the names or without; lines that begin with # are skipped. `example`: a header, for
-// messages. `check`: refuses a value by an InputError. InputError with file and line.
+// any number, with units behind the names or without, also in a comment right above the first row; other lines that
+// begin with # are skipped. `example`: a header, for messages. `check`: refuses a value by an InputError. InputError
+// with file and line.
 TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimension& pointDimension,
                           const units::Dimension& valueDimension, const std::string& example,
                           const std::function<void(double)>& check);

@@ -109,6 +109,10 @@ TEST(ReactorCase, AProfileFileSaysItsUnits) {
               "300 400 at 350")
         << header;
   }
+  for (const std::string header :
+       {"# time [ms], T [degC]", "# from a figure\n# time [ms]  T [degC]", "#time (ms)\tT (degC)"})
+    EXPECT_EQ(profileOf(header + "\n0 26.85\n2000 126.85\n", 1.0), "300 400 at 350") << header;
+  EXPECT_EQ(profileOf("# after Smith, Fig. 3 (run 7)\n0,300\n2,400\n", 1.0), "300 400 at 350");
   EXPECT_EQ(profileOf("time (from the valve),T (corrected)\n0,300\n2,400\n", 1.0), "300 400 at 350");
   EXPECT_EQ(profileOf("time since the start T\n0 300\n2 400\n", 1.0), "300 400 at 350");
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
@@ -116,6 +120,7 @@ TEST(ReactorCase, AProfileFileSaysItsUnits) {
            {"time [s],T [ms]\n0,300\n", ":1: the column 'T' is in ms; expected a temperature"},
            {"time [sec],T [K]\n0,300\n", "'sec' is not a unit known here"},
            {"the time [ms] T [K]\n0 300\n", ":1: expected the names of two columns"},
+           {"# z [cm], T [K]\n0,300\n", ":1: the column 'z' is in cm; expected a time"},
            {"time [ms],T [degC]\n0,1e9\n", ":2: expected temperatures from"}})
     EXPECT_THAT(profileOf(text), testing::HasSubstr(message)) << text;
 }

@@ -46,6 +46,20 @@ TEST(Csv, SemicolonsTabulatorsAndBlanksAroundFields) {
   EXPECT_EQ(readCsv(csvText(blanks)).rows, blanks.rows);
 }
 
+// As numpy's savetxt writes names; no other comment is one.
+TEST(Csv, NamesMayStandInACommentAboveTheFirstRow) {
+  for (const std::string text : {"# time [s],T [K]\n0,1e+3\n", "#time [s];T [K]\r\n0;1000\r\n",
+                                 "# made here\n\n  # time [s],T [K]\n0, 1000\n"}) {
+    EXPECT_EQ(readCsv(text).columns, (std::vector<std::string>{"time [s]", "T [K]"})) << text;
+    EXPECT_EQ(readCsv(text).rows.size(), 1U) << text;
+  }
+  for (const std::string text : {"# a, b\n\n0,1\n", "# a, b, c\n0,1\n", "# a, b\nc,d\n", "# a, b\nc,1\n",
+                                 "# a, b\n# c\n0,1\n", "0,1\n# a, b\n2,3\n", "# a b\n", "#"})
+    EXPECT_EQ(withNamesOutOfComment(text), text);
+  EXPECT_EQ(withNamesOutOfComment("# z [cm]  T [K]\n0 \t300\n"), "  z [cm]  T [K]\n0 \t300\n");
+  EXPECT_EQ(withNamesOutOfComment("# height above it\n0 300\n"), "# height above it\n0 300\n");
+}
+
 TEST(Csv, TheHeaderOfAHistoryHasAsManyFieldsAsItsRows) {
   const test::ScratchFolder folder;
   const auto path = folder.path() / "history.csv";
