@@ -89,6 +89,57 @@ TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
   }
 }
 
+// What the operator finds of the strain beside a cell.
+struct StrainProbe : TwoVariables {
+  static constexpr bool needsStrainGradient = true;
+  [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
+    return {.eddyViscosity = cell.strain,
+            .diffusivity = {cell.strainSlope[0], cell.strainSlope[1]},
+            .source = {cell.strainBend, 0.0}};
+  }
+};
+
+// Strain that grows sevenfold from cell to cell has the slope of its logarithm, exactly; beside a wall that the gas
+// sticks to with the strain at the wall.
+TEST(Turbulence, StrainHasTheSlopeOfItsLogarithm) {
+  const double a = 2000.0, b = -700.0, h = 0.001;
+  std::vector<Side> sides = TurbulentSquare::walls(Geometry::Planar);
+  sides[1].condition.slip = false;
+  TurbulentSquare square(std::make_shared<PointwiseModel<StrainProbe>>(), Geometry::Planar, sides);
+  const Mesh& mesh = square.box.mesh;
+  State state = square.state([&](const Vector3& x) { return Vector3{0.0, std::exp(a * x[0] + b * x[1])}; });
+  TurbulenceOperator turbulence = square.turbulence(state);
+  turbulence.setStart(state, {ofMolecules, ofMolecules, 2.0});
+  State::Balance rates = state.balance;
+  turbulence.addRates(state, rates);
+  turbulence.setDiffusivities(state);
+  int beside = 0;
+  square.forCellsWellInside([&](std::size_t c, const Vector3& x) {
+    const auto isNear = [&](double along) { return std::abs(along - 0.5 * TurbulentSquare::length) < 1.5 * h; };
+    if (!isNear(x[0]) || !isNear(x[1])) return;
+    EXPECT_NEAR(state.carriedDiffusivity[2 * c], a, 1e-8 * a);
+    EXPECT_NEAR(state.carriedDiffusivity[2 * c + 1], b, 1e-8 * a);
+    EXPECT_NEAR(rates.carried[2 * c] / state.density[c], a * a + b * b, 1e-7 * a * a);
+  });
+  state.updateHalo(square.box.halo);
+  for (int face = mesh.interiorFaces; face < mesh.faces; ++face) {
+    const auto cell = at(mesh.low[at(face)]);
+    if (mesh.patch[at(face - mesh.interiorFaces)] != 1) continue;
+    const auto before = std::ranges::find_if(mesh.centre, [&](const Vector3& x) {
+      const Vector3& own = mesh.centre[cell];
+      return std::abs(x[0] + h - own[0]) + std::abs(x[1] - own[1]) < 1e-6;
+    });
+    ASSERT_NE(before, mesh.centre.end());
+    const auto logOf = [&](std::size_t c) { return std::log(state.eddyViscosity[c] / state.density[c]); };
+    const double own = logOf(cell),
+                 atWall = std::log(turbulence.atWall(face, state).shear / TurbulentSquare::viscosity);
+    const double inward = (own - logOf(at(before - mesh.centre.begin()))) / h, outward = (atWall - own) / (0.5 * h);
+    EXPECT_NEAR(state.carriedDiffusivity[2 * cell], (inward + 2.0 * outward) / 3.0, 1e-8 * a);
+    ++beside;
+  }
+  EXPECT_EQ(sumOverRanks(beside), 7.0);
+}
+
 // About an axis with swirl w = r (F + G z + H r), by the tensor written out: no strain of a gas that turns as a whole.
 TEST(Turbulence, SwirlHasItsShear) {
   const double a = 2.0, b = TwoVariables::second, ofMantle = 2.0;

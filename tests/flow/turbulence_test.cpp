@@ -86,8 +86,8 @@ TEST(Turbulence, ModelsOfOneEquationGiveTheRatesOfTheirPapers) {
                        .vorticity = of.vorticity,
                        .distance = of.distance,
                        .viscosity = nu,
-                       .strainLaplacian = of.laplacian,
-                       .strainGradient = of.ofStrain,
+                       .strainBend = of.laplacian / of.strain,
+                       .strainSlope = {of.ofStrain[0] / of.strain, of.ofStrain[1] / of.strain},
                        .values = {of.value},
                        .gradients = {of.slope}};
     TurbulentRates rates = ratesOf(of.model, cell);
@@ -188,8 +188,8 @@ TEST(Turbulence, TheLogLayerSolvesTheEquations) {
                              .vorticity = shear,
                              .distance = y,
                              .viscosity = 1e-9 * value,
-                             .strainLaplacian = 2.0 * shear / (y * y),
-                             .strainGradient = {0.0, -shear / y},
+                             .strainBend = 2.0 / (y * y),
+                             .strainSlope = {0.0, -1.0 / y},
                              .values = {value},
                              .gradients = {Vector3{0.0, of.kappa * u}}};
     const double spread = of.sigma * of.kappa * of.kappa * u * u;

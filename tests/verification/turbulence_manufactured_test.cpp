@@ -70,7 +70,7 @@ struct ShearedStream {
                        .vorticity = shear,
                        .distance = nearest + x[0],
                        .viscosity = viscosity,
-                       .strainGradient = {400.0, 0.0}};
+                       .strainSlope = {400.0 / shear, 0.0}};
     for (std::size_t v = 0; v < TurbulentCell::most; ++v) {
       cell.values[v] = least[v] + rise[v] * across * along;
       cell.gradients[v] = {rise[v] * wave * std::cos(wave * x[0]) * along,

@@ -26,18 +26,18 @@ namespace lampblack::flow {
 struct TurbulentCell {
   static constexpr std::size_t most = 2;  // variables of a model
 
-  double strain = 0.0;           // 1/s, sqrt(2 S_ij S_ij - 2/3 (div u)^2): dilatation has no part in it
-  double vorticity = 0.0;        // 1/s, sqrt(2 W_ij W_ij)
-  double dilatation = 0.0;       // 1/s, div u
-  double stretching = 0.0;       // 1/s^3, |W_ij W_jk S_ki|, S without half of the dilatation
-  double strainShape = 0.0;      // S_ij S_jk S_ki/(S_ij S_ij)^(3/2) of the strain without dilatation
-  double distance = 0.0;         // m, from the nearest wall
-  double viscosity = 0.0;        // m^2/s, kinematic, molecular
-  double strainLaplacian = 0.0;  // 1/(s m^2)
-  Vector3 strainGradient{};      // 1/(s m)
-  Vector3 densityGradient{};     // 1/m, of the density over the density
-  double buoyancy = 0.0;         // 1/s^2, -g . grad rho/(rho Sc_t), by which eddies gain k; zero where it is not wanted
-  double buoyancyShare = 0.0;    // of that, what makes epsilon: tanh(|u along g|/|u across g|)
+  double strain = 0.0;         // 1/s, sqrt(2 S_ij S_ij - 2/3 (div u)^2): dilatation has no part in it
+  double vorticity = 0.0;      // 1/s, sqrt(2 W_ij W_ij)
+  double dilatation = 0.0;     // 1/s, div u
+  double stretching = 0.0;     // 1/s^3, |W_ij W_jk S_ki|, S without half of the dilatation
+  double strainShape = 0.0;    // S_ij S_jk S_ki/(S_ij S_ij)^(3/2) of the strain without dilatation
+  double distance = 0.0;       // m, from the nearest wall
+  double viscosity = 0.0;      // m^2/s, kinematic, molecular
+  double strainBend = 0.0;     // 1/m^2, lap S/S
+  Vector3 strainSlope{};       // 1/m, grad S/S
+  Vector3 densityGradient{};   // 1/m, of the density over the density
+  double buoyancy = 0.0;       // 1/s^2, -g . grad rho/(rho Sc_t), by which eddies gain k; zero where it is not wanted
+  double buoyancyShare = 0.0;  // of that, what makes epsilon: tanh(|u along g|/|u across g|)
   std::array<double, most> values{};
   std::array<Vector3, most> gradients{};
   // Of the second variable's: what differences see beside the products of the gradients (Gradient::Beyond).
@@ -57,6 +57,9 @@ struct TurbulentRates {
       source[variable] += rate;
   }
 };
+
+// 1/s, of a gas that moves as one.
+inline constexpr double leastStrain = 1e-16;
 
 // tanh(x^4), by which models pass from the layers at walls to what is beyond them.
 [[nodiscard]] inline double layerShare(double x) {

@@ -70,6 +70,8 @@ TurbulenceOperator::TurbulenceOperator(const FlowContext& context, const State& 
   densityGradient_.resize(cells * d);
   strain_.resize(cells);
   boundaryStrain_.resize(faces);
+  strainLog_.resize(cells);
+  boundaryStrainLog_.resize(faces);
   strainGradient_.resize(cells * d);
   strainSum_.resize(owned);
   if (count_ == 2) beyond_.resize(owned);

@@ -131,8 +131,8 @@ class TurbulenceOperator : public Operator {
     Peak ratio;                                               // of the eddy viscosity over that of the molecules
   } told_;
   // Of the local cells and boundary faces: the variables per mass; 1/s.
-  std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_,
-      strainGradient_, strainSum_;
+  std::vector<double> values_, boundaryValues_, valueGradient_, densityGradient_, strain_, boundaryStrain_, strainLog_,
+      boundaryStrainLog_, strainGradient_, strainSum_;
   std::vector<Gradient::Beyond> beyond_;
   // Of a flow that swirls: the angular velocity w/r of the local cells and boundary faces, 1/s, and its gradient.
   std::vector<double> turning_, boundaryTurning_, turningGradient_;

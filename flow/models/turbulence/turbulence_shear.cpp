@@ -129,17 +129,21 @@ void TurbulenceOperator::addStrainGradient(const State& state) {
   for (int face = m.interiorFaces; face < m.faces; ++face)
     if (isSticky(face)) boundaryStrain_[face - m.interiorFaces] = strainAtWall(face, state);
   context_.halo.update(strain_, 1);
-  gradient_.compute(strain_, boundaryStrain_, 1, strainGradient_, knownStrain_);
+  for (std::size_t c = 0; c < strain_.size(); ++c) strainLog_[c] = std::log(std::max(strain_[c], leastStrain));
+  for (std::size_t b = 0; b < boundaryStrain_.size(); ++b)
+    boundaryStrainLog_[b] = std::log(std::max(boundaryStrain_[b], leastStrain));
+  gradient_.compute(strainLog_, boundaryStrainLog_, 1, strainGradient_, knownStrain_);
   std::ranges::fill(strainSum_, 0.0);
   for (int face = 0; face < m.faces; ++face) {
     const bool isInside = m.high[face] >= 0;
     if (!isInside && !isSticky(face)) continue;
-    const double beyond = isInside ? strain_[m.high[face]] : boundaryStrain_[face - m.interiorFaces];
-    addFaceFlux(m, face, -m.area[face] / m.distance[face] * (beyond - strain_[m.low[face]]), 1.0, strainSum_);
+    const double beyond = isInside ? strainLog_[m.high[face]] : boundaryStrainLog_[face - m.interiorFaces];
+    addFaceFlux(m, face, -m.area[face] / m.distance[face] * (beyond - strainLog_[m.low[face]]), 1.0, strainSum_);
   }
   for (std::size_t c = 0; c < cells_.size(); ++c) {
-    cells_[c].strainLaplacian = strainSum_[c] / m.volume[c];
-    std::copy_n(&strainGradient_[c * d], d, cells_[c].strainGradient.begin());
+    Vector3& slope = cells_[c].strainSlope;
+    std::copy_n(&strainGradient_[c * d], d, slope.begin());
+    cells_[c].strainBend = strainSum_[c] / m.volume[c] + dot(slope, slope);
   }
 }
 

@@ -22,7 +22,7 @@ struct WangModel {
   }
 
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
-    const double nu = cell.viscosity, n = std::max(cell.values[0], 1e-12 * nu), S = std::max(cell.strain, 1e-16);
+    const double nu = cell.viscosity, n = std::max(cell.values[0], 1e-12 * nu), S = std::max(cell.strain, leastStrain);
     const double d = cell.distance, X = n / nu, cube = X * X * X;
     TurbulentRates rates;
     rates.eddyViscosity = n * cube / (cube + cw * cw * cw);
@@ -33,10 +33,10 @@ struct WangModel {
     const double alpha = blend(1.2, 1.0), beta = blend(0.084, 0.144), gamma = blend(1.7, 0.2386);
     rates.diffusivity[0] = nu + alpha * n;
     rates.source[0] = beta * n * S;
-    const Vector3 &slope = cell.gradients[0], &ofStrain = cell.strainGradient;
-    rates.add(0, gamma * n / S * dot(ofStrain, slope), n);
-    rates.add(0, c1 * (1.0 - F1) * n * n / S * cell.strainLaplacian, n);
-    const double most = c3 * dot(slope, slope), byStrain = n * n * dot(ofStrain, ofStrain) / (S * S);
+    const Vector3 &slope = cell.gradients[0], &ofStrain = cell.strainSlope;
+    rates.add(0, gamma * n * dot(ofStrain, slope), n);
+    rates.add(0, c1 * (1.0 - F1) * n * n * cell.strainBend, n);
+    const double most = c3 * dot(slope, slope), byStrain = n * n * dot(ofStrain, ofStrain);
     if (most > 0.0) rates.add(0, -c2 * (1.0 - F1) * most * std::tanh(byStrain / most), n);
     rates.add(0, -rates.diffusivity[0] * dot(cell.densityGradient, slope), n);
     return rates;

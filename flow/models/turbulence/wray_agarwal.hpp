@@ -24,7 +24,7 @@ struct WrayAgarwal {
   }
 
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
-    const double nu = cell.viscosity, R = std::max(cell.values[0], 1e-12 * nu), S = std::max(cell.strain, 1e-16);
+    const double nu = cell.viscosity, R = std::max(cell.values[0], 1e-12 * nu), S = std::max(cell.strain, leastStrain);
     const double X = R / nu, cube = X * X * X;
     TurbulentRates rates;
     rates.eddyViscosity = R * cube / (cube + cw * cw * cw);
@@ -34,9 +34,9 @@ struct WrayAgarwal {
     const double f1 = layerShare(arg);
     rates.diffusivity[0] = nu + (f1 * (sigmaOmega - sigmaEpsilon) + sigmaEpsilon) * R;
     rates.source[0] = (f1 * (c1Omega - c1Epsilon) + c1Epsilon) * R * S;
-    const Vector3 &slope = cell.gradients[0], &ofStrain = cell.strainGradient;
-    rates.add(0, f1 * c2Omega * R / S * dot(slope, ofStrain), R);
-    const double byStrain = c2Epsilon * R * R * dot(ofStrain, ofStrain) / (S * S);
+    const Vector3 &slope = cell.gradients[0], &ofStrain = cell.strainSlope;
+    rates.add(0, f1 * c2Omega * R * dot(slope, ofStrain), R);
+    const double byStrain = c2Epsilon * R * R * dot(ofStrain, ofStrain);
     rates.add(0, -(1.0 - f1) * std::min(byStrain, cm * dot(slope, slope)), R);
     rates.add(0, -rates.diffusivity[0] * dot(cell.densityGradient, slope), R);
     return rates;
