@@ -23,6 +23,7 @@ Expansion::Expansion(const FlowContext& context)
       balance_(divergence_),
       gained_(divergence_),
       drift_(divergence_),
+      lastDrift_(divergence_),
       heat_(divergence_),
       enthalpies_(context.mechanism.numSpecies()) {}
 
@@ -91,8 +92,10 @@ void Expansion::begin(const State& state, const GasProperties& properties, bool 
     // What a steady state needs goes on all the time: it is in proportion to the step.
     if (lastStep > 0.0)
       correction_[c] = (correction_[c] + share * ((gained_[c] - balance_[c]) * lastStep + drift_[c])) * (dt / lastStep);
-    divergence_[c] = balance_[c] + (correction_[c] + drift_[c]) / dt;
+    const double before = lastStep > 0.0 ? lastDrift_[c] : drift_[c];
+    divergence_[c] = balance_[c] + (correction_[c] + 0.5 * (drift_[c] + before)) / dt;
   }
+  lastDrift_ = drift_;
 }
 
 void Expansion::changeReactions(const State& state, const GasProperties& properties, int cell,
@@ -153,6 +156,7 @@ std::span<const double> Expansion::initial(const State& state, const GasProperti
 void Expansion::saveOrLoad(StateArchive& archive) {
   archive.cells("expansion_correction", correction_, 1);
   archive.cells("expansion_gained", gained_, 1);
+  archive.cells("expansion_drift", lastDrift_, 1);
 }
 
 std::span<const double> Expansion::pressureDrift(const State& state) {
