@@ -442,13 +442,15 @@ TEST(SteadyMode, StartsFromACoarserMeshThatBurns) {
     const Deck deck = hydrogenBesideAir(settings);
     return caseFromCoarserMeshes(MPI_COMM_WORLD, deck, 1, folder, {"test", "none", deck.resolved(), "now"});
   };
-  const FlowCase burns = seek("burns", {"mesh.refinement=2"});
+  const FlowCase burns = seek("burns", {"mesh.refinement=2", "time.steady.steps=60"});
   ASSERT_EQ(burns.time.search->coarser.size(), 1U);
   const TimeControl::Search::Coarser& coarser = burns.time.search->coarser.front();
   EXPECT_EQ(coarser.cells, 64);
   EXPECT_TRUE(coarser.isSteady);
   EXPECT_TRUE(coarser.isStart);
   EXPECT_GT(coarser.iterations, 0);
+  EXPECT_GE(coarser.steps, 60);
+  EXPECT_EQ(burns.time.search->steps, 50);
   const Hdf5Reader results(scratch.path() / "burns/coarser_1/results.h5");
   const Vector3 firstCentre{5e-4, 7.5e-4, 0.0};
   EXPECT_NEAR(burns.initialFields.gas.temperature(firstCentre, 0.0), test::lastOf(results, "temperature")[0], 1e-6);

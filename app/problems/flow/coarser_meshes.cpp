@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -16,10 +17,22 @@ namespace lampblack::app {
 
 namespace {
 
-// The case of a deck that starts from what an earlier run left; nothing: from the deck's own start.
-FlowCase caseFrom(const Deck& deck, const std::filesystem::path& earlier) {
+// Steps in time that a start from a steady state needs at most: it has but to follow the finer cells.
+constexpr int mostStepsFromSteady = 50;
+
+// What a run on a coarser mesh left; no results: the start is the deck's own.
+struct Earlier {
+  std::filesystem::path results;
+  bool isSteady = false;
+};
+
+// The case of a deck that starts from there.
+FlowCase caseFrom(const Deck& deck, const Earlier& earlier) {
   FlowCase flowCase = readFlowCase(deck);
-  if (!earlier.empty()) flowCase.initialFields = flowcase::readEarlierFlow(earlier, {}, flowCase);
+  if (earlier.results.empty()) return flowCase;
+  flowCase.initialFields = flowcase::readEarlierFlow(earlier.results, {}, flowCase);
+  int& steps = flowCase.time.search->steps;  // 0: as many as they take
+  if (earlier.isSteady) steps = std::min(steps, mostStepsFromSteady);
   return flowCase;
 }
 
@@ -29,7 +42,7 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, cons
                                const RunInfo& info) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  std::filesystem::path earlier;
+  Earlier earlier;
   std::vector<TimeControl::Search::Coarser> told;
   FlowCase flowCase;
   for (int level = meshes; level >= 1; --level) {
@@ -67,7 +80,7 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, cons
     told.push_back(loop.searchAsCoarser());
     // A flame that does not stand on a coarse mesh may stand on the next; gas that is cold would stay so.
     if (told.back().isStart)
-      earlier = found;
+      earlier = {found, told.back().isSteady};
     else
       printWarnings({"nothing burns on the coarser mesh; the next one does not start from it"});
   }
