@@ -168,7 +168,7 @@ void FineStructureCells::findSlopes(const Gas& gas, std::span<const double> Y, s
   std::vector<double> y(Y.begin(), Y.end());
   y.push_back(gas.temperature);
   std::ranges::fill(slopes, 0.0);
-  for (std::size_t j = 0; j + 1 < width; ++j) slopes[j * width + j] = 1.0;
+  for (std::size_t j = 0; j < width; ++j) slopes[j * width + j] = 1.0;
   system_.setConditions(gas.pressure, {});
   ReactorIntegrator::Work work;
   if (!steps_.advance({gas.mixing.fineTime, 0.0, toleranceOfSlopes, absoluteToleranceOfSlopes, mostStepsOfSlopes}, y,
