@@ -17,6 +17,7 @@ namespace {
 constexpr double mostRise = 100.0;      // K
 constexpr double mostOfFraction = 0.1;  // mass fraction of any species
 constexpr double leastOfTrace = 0.1;    // of itself, of a trace, that is left
+constexpr double mostTaken = 0.9;       // of a species that is more than a trace, where not all may be taken
 constexpr double gasReduction = 0.01;   // of the linear system's residual
 constexpr int mostGasIterations = 60;
 // Where so much is left of it after these, its factors lead nowhere: the next keep less of their fill, that share of
@@ -45,9 +46,10 @@ void followGas(const FlowContext& context, State& state, int cell) {
   for (std::size_t s = 0; s < scalars; ++s) state.carried[c * scalars + s] *= state.density[c] / before;
 }
 
-GasUpdate::GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators)
+GasUpdate::GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators, Takes takes)
     : context_(context),
       operators_(std::move(operators)),
+      takes_(takes),
       n_(static_cast<std::size_t>(state.species)),
       system_(context.mesh, context.halo, n_ + 1),
       made_(n_),
@@ -145,17 +147,25 @@ bool GasUpdate::isMisled(const State& state, std::size_t c, double share) {
   return false;
 }
 
+double GasUpdate::shareOf(std::span<const double> Y, std::span<const double> change) const {
+  double most = 0.0;
+  for (std::size_t k = 0; k < n_; ++k) most = std::max(most, std::abs(change[k]));
+  const double rise = kelvins * std::abs(change[n_]);
+  double share = 1.0;
+  if (rise > mostRise) share = mostRise / rise;
+  if (share * most > mostOfFraction) share = mostOfFraction / most;
+  for (std::size_t k = 0; k < n_ && takes_ == Takes::NineTenths; ++k)
+    if (Y[k] > traceOfSpecies && -share * change[k] > mostTaken * Y[k]) share = -mostTaken * Y[k] / change[k];
+  return share;
+}
+
 double GasUpdate::take(State& state, int cell, double& largestRise) {
   const auto c = static_cast<std::size_t>(cell);
   const double* change = &change_[c * (n_ + 1)];
   double* Y = &state.Y[c * n_];
-  double most = 0.0;
-  for (std::size_t k = 0; k < n_; ++k) most = std::max(most, std::abs(change[k]));
   const double rise = kelvins * change[n_];
   largestRise = std::max(largestRise, std::abs(rise));
-  double share = 1.0;
-  if (std::abs(rise) > mostRise) share = mostRise / std::abs(rise);
-  if (share * most > mostOfFraction) share = mostOfFraction / most;
+  const double share = shareOf({Y, n_}, {change, n_ + 1});
   const std::size_t width = n_ + 1;
   const double V = context_.mesh.volume[c];
   const double *slopes = &slopes_[c * width * width], *block = system_.block(cell);

@@ -38,10 +38,16 @@ void followGas(const FlowContext& context, State& state, int cell);
 
 class GasUpdate {
  public:
+  // What an iteration may take of a species that is more than a trace: all, or nine tenths. Where it may take all, a
+  // cell of burnt gas whose linear system asks for more than there is ends without H, CH3 and what else burns, in the
+  // next without O and OH, and so to and fro between two gases, however short the time.
+  enum class Takes { All, NineTenths };
+
   static constexpr double kelvins =
       1000.0;  // K, the unit of the temperature in the linear system: all are of the order of one
 
-  GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators);  // collective
+  GasUpdate(const FlowContext& context, const State& state, std::vector<Operator*> operators,
+            Takes takes = Takes::All);  // collective
 
   struct Result {
     int iterations = 0;        // of the linear solver
@@ -90,11 +96,14 @@ class GasUpdate {
   double addLoad(const State& state, const LoadAsUnknown& load);
   // Whether the linear system takes away, to less than nothing, what the cell's equations say there will be more of.
   [[nodiscard]] bool isMisled(const State& state, std::size_t cell, double share);
+  // The share of the change that the limits leave.
+  [[nodiscard]] double shareOf(std::span<const double> Y, std::span<const double> change) const;
   // The share of the change that was taken: none where it misleads.
   double take(State& state, int cell, double& largestRise);
 
   const FlowContext& context_;
   std::vector<Operator*> operators_;
+  Takes takes_;
   std::size_t n_;
   BlockSystem system_;
   std::vector<double> slopes_;

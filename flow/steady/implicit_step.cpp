@@ -9,9 +9,12 @@
 namespace lampblack::flow {
 namespace {
 
-// Of Newton's method in a step: its linear systems, how often at most, and what of the step's equations is enough.
+// Of Newton's method in a step: its linear systems, how often at most, in a row without progress (less than a tenth of
+// the least that was left), and what of the step's equations is enough. Gas that a step burns or cools by 1000 K takes
+// ten passes of its limits.
 constexpr double linearReduction = 0.05;
-constexpr int mostNewtonPasses = 3;
+constexpr int mostNewtonPasses = 12, mostIdlePasses = 2;
+constexpr double progress = 0.9;
 constexpr double enough = 0.15;
 // What a step may leave of its equations to be taken, and to be followed by a longer one.
 constexpr double mostLeftInTime = 0.3, leftOfEasy = 0.2;
@@ -38,6 +41,7 @@ void ImplicitStep::shorten() {
 void ImplicitStep::lengthen() {
   if (time_ >= refused_) refused_ = INFINITY;
   time_ = std::min(growthOfTime * time_, std::max(slowGrowthOfTime * time_, nearRefused * refused_));
+  time_ = std::min(time_, longest_);
 }
 
 void ImplicitStep::saveOrLoad(StateArchive& archive) {
@@ -55,6 +59,7 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
   residual_.evaluate(state);
+  longest_ = residenceTime(context_.mesh, state);
   if (!(time_ > 0.0)) time_ = convectiveTimeStep(context_.mesh, state, 1.0);
   for (std::size_t c = 0; c < inertia_.size(); ++c)
     inertia_[c] = state.density[c] * context_.mesh.volume[c] / (time_ * haste[c]);
@@ -62,8 +67,9 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   Result result;
   result.time = time_;
   NewtonKrylov::Left before;
-  double left = 0.0;
-  for (int pass = 0; pass < mostNewtonPasses; ++pass) {
+  double left = 0.0, least = INFINITY;
+  int idle = 0;
+  for (int pass = 0; pass < mostNewtonPasses && idle < mostIdlePasses; ++pass) {
     const NewtonKrylov::Result step = newton_.advance(state, inertia_, linearReduction, &start);
     if (pass == 0) before = step.before;
     result.vectors += step.iterations;
@@ -72,6 +78,8 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
     residual_.evaluate(state);
     left = shareLeft(newton_.leftInTime(state, start), before, step.limited > 0);
     if (left <= enough) break;
+    idle = left <= progress * least ? 0 : idle + 1;
+    least = std::min(least, left);
   }
   result.taken = left <= mostLeftInTime;
   if (!result.taken) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <functional>
 
 #include "flow/steady/steady_iteration.hpp"
 #include "flow/stepping/transport_operator.hpp"
@@ -185,11 +186,12 @@ TEST(GasUpdates, HoldNoCellWhoseTraceIsOnlyBurnt) {
   EXPECT_GT(largest(b.mesh, [&](int c) { return state.Y[at(c * state.species) + hydroxyl]; }), 2e-4);
 }
 
-// Gas with argon, in the place of which gas with OH comes to rest. A linear step would leave less than no argon.
-TEST(GasUpdates, LeaveATenthOfATrace) {
+// Gas with argon, in the place of which gas with twice as much OH comes to rest. A linear step would leave less than no
+// argon. `first`: what is left of it by the first pass, of what there was.
+void changePlaces(double there, GasUpdate::Takes takes, int passes, const std::function<void(double first)>& look) {
   Gas& gas = Gas::hydrogen();
   const std::size_t argon = gas.mechanism.speciesIndex("AR"), hydroxyl = gas.mechanism.speciesIndex("OH");
-  constexpr double comes = 2e-7, there = 1e-7;
+  const double comes = 2.0 * there;
   const auto mixture = [&](double ofHydroxyl, double ofArgon) {
     std::vector<double> Y = gas.massFractions("O2: 0.21, N2: 0.79");
     Y[hydroxyl] = ofHydroxyl;
@@ -205,20 +207,32 @@ TEST(GasUpdates, LeaveATenthOfATrace) {
   transport.initialise(state, 1e-6);
   const std::vector<Operator*> operators{&transport, &burning};
   FlowResidual residual(b.context, state, VelocityScheme::Limited, operators);
-  GasUpdate update(b.context, state, operators);
+  GasUpdate update(b.context, state, operators, takes);
   const std::vector<double> inertia(at(b.mesh.owned), 0.0);
   const auto furthest = [&](std::size_t species, double from) {
     return largest(b.mesh, [&](int c) { return std::abs(state.Y[at(c * state.species) + species] / from - 1.0); });
   };
-  for (int pass = 0; pass < 15; ++pass) {
+  for (int pass = 0; pass < passes; ++pass) {
     residual.evaluate(state);
-    update.advance(state, residual, inertia);
-    if (pass == 0) {
-      EXPECT_LT(furthest(argon, 0.1 * there), 1e-6);
-    }
+    const GasUpdate::Result result = update.advance(state, residual, inertia);
+    if (pass > 0) continue;
+    for (int c = 0; c < b.mesh.owned; ++c) look(state.Y[at(c * state.species) + argon] / there);
+    EXPECT_EQ(result.limited, takes == GasUpdate::Takes::NineTenths && there > traceOfSpecies ? 12 : 0);
   }
+  if (passes == 1) return;
   report(fmt::format("OH is off by {:.2g}", furthest(hydroxyl, comes)));
   EXPECT_LT(furthest(hydroxyl, comes), 1e-3);
+}
+
+TEST(GasUpdates, LeaveATenthOfATrace) {
+  changePlaces(1e-7, GasUpdate::Takes::All, 15, [](double first) { EXPECT_NEAR(first, 0.1, 1e-7); });
+}
+
+// Of more than a trace all is taken, or, where not all may be, nine tenths, of the cell's other changes as large a
+// share.
+TEST(GasUpdates, LeaveATenthOfMoreWhereAsked) {
+  changePlaces(1e-3, GasUpdate::Takes::All, 1, [](double first) { EXPECT_LT(first, 1e-3); });
+  changePlaces(1e-3, GasUpdate::Takes::NineTenths, 20, [](double first) { EXPECT_NEAR(first, 0.1, 1e-3); });
 }
 
 // Air of one temperature, whose velocities differ so that mass is left in the cells: the gas itself has nothing to

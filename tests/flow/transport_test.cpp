@@ -156,10 +156,12 @@ TEST(ConvectiveTimeStep, IsExactOnAUniformFlow) {
            opening(BoundaryKind::Outlet, 1, true, 0.0, 300.0, air)});
   State state = box.state([&](const auto&) { return Box::Local{{0.0, 0.7}, 300.0, air}; });
   EXPECT_EQ(convectiveTimeStep(box.mesh, state, 0.5), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(residenceTime(box.mesh, state), std::numeric_limits<double>::infinity());
   TransportOperator transport(box.context, state);
   transport.initialise(state, 1e-4);
   const auto& y = box.mesh.box->vertices[1];
   EXPECT_NEAR(convectiveTimeStep(box.mesh, state, 0.5) / (0.5 * (y[1] - y[0]) / 0.7), 1.0, 20.0 * epsilon);
+  EXPECT_NEAR(residenceTime(box.mesh, state) / (0.02 / 0.7), 1.0, 20.0 * epsilon);
 }
 
 TEST(TransportOperator, TemperatureOutsideTheDataIsANumericsErrorOnAllRanks) {
