@@ -21,6 +21,9 @@ constexpr double mostLeftInTime = 0.3, leftOfEasy = 0.2;
 // Of the time of a step: near a time that was refused it grows more slowly.
 constexpr double growthOfTime = 2.0, slowGrowthOfTime = 1.2, nearRefused = 0.6, shorterInTime = 0.4;
 constexpr int carriedPassesInTime = 2;
+// The longest step, of what the gas stays in the domain, and in any case of what it does in the cell that it leaves
+// first.
+constexpr double mostOfResidence = 0.05, mostOfShortest = 10.0;
 
 }  // namespace
 
@@ -59,8 +62,9 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
   residual_.evaluate(state);
-  longest_ = residenceTime(context_.mesh, state);
-  if (!(time_ > 0.0)) time_ = convectiveTimeStep(context_.mesh, state, 1.0);
+  const double shortest = convectiveTimeStep(context_.mesh, state, 1.0);
+  longest_ = std::max(mostOfResidence * residenceTime(context_.mesh, state), mostOfShortest * shortest);
+  if (!(time_ > 0.0)) time_ = shortest;
   for (std::size_t c = 0; c < inertia_.size(); ++c)
     inertia_[c] = state.density[c] * context_.mesh.volume[c] / (time_ * haste[c]);
   const State start = state;

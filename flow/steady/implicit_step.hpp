@@ -60,8 +60,8 @@ class ImplicitStep {
   std::vector<Operator*> operators_;
   NewtonKrylov newton_;
   double time_ = 0.0, refused_ = INFINITY;  // s, of the next step, and the last that was not taken
-  // s: what the gas takes through the domain. The eddies follow the flow, and in more time than it has would go to and
-  // fro with it.
+  // s: a twentieth of what the gas stays in the domain. The eddies follow the flow, and in longer steps would go to and
+  // fro with it for long.
   double longest_ = INFINITY;
   std::vector<double> inertia_;  // kg/s, owned cells
 };

@@ -9,6 +9,7 @@
 
 #include "core/errors.hpp"
 #include "flow/cell_errors.hpp"
+#include "flow/stepping/time_step.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -39,7 +40,8 @@ constexpr double enoughOfNewton = 0.5;
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 constexpr double growthAfterFailure = 1.2;
-constexpr int mostShorter = 6;  // implicit steps in one iteration, each shorter than that before
+constexpr int mostOfGasAlone = 2;  // iterations after steps of one time, or Newton's, where the flow rests
+constexpr int mostShorter = 6;     // implicit steps in one iteration, each shorter than that before
 // Of the Courant number, at least, where no cell was limited and no more is left than before: in thin cells the
 // residual falls as slowly as a small one lets it, and would hold it where it is.
 constexpr double quietGrowth = 1.1;
@@ -86,6 +88,7 @@ void SteadyIteration::saveOrLoad(const State& state, StateArchive& archive) {
   archive.shared("steady_is_limited", isLimited_);
   archive.shared("steady_newton_waits", waits_);
   archive.shared("steady_newton_pause", pause_);
+  archive.shared("steady_gas_alone", ofGasAlone_);
   mixing_.clear();
   gas_.saveOrLoad(archive);
   flow_.saveOrLoad(archive);
@@ -223,7 +226,10 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
     outcome.largestRise = gas.largestRise;
     outcome.limited = gas.limited;
     hurry();
-    for (int pass = 0; pass < flowPasses; ++pass) {
+    // After steps of one time the gas alone goes on where the flow rests: what one after the other makes of flow and
+    // eddies grows.
+    const bool isOfGasAlone = step_ && !mayAccelerate;
+    for (int pass = 0; pass < flowPasses && !isOfGasAlone; ++pass) {
       const bool isSame = pass > 0 || (isAtRest && !context_.isClosed());
       residual_.evaluateFlow(state, isSame ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
       const FlowUpdate::Result flow = flow_.advance(state, flowInertia_);
@@ -235,7 +241,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
       accelerate(state);
     else
       mixing_.clear();
-    if (carried_) advanceCarried(state);
+    if (carried_ && !isOfGasAlone) advanceCarried(state);
     residual_.evaluate(state);
     measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {
@@ -330,6 +336,8 @@ SteadyIteration::Outcome SteadyIteration::attemptInTime(State& state) {
     takeBack(state, last);
     outcome.measure = last;
   }
+  // Newton's method goes on with no less time in any cell.
+  if (outcome.taken) courant_ = step_->time() / convectiveTimeStep(context_.mesh, state, 1.0);
   isLimited_ = !outcome.taken || outcome.limited > 0;
   isAnew_ = !outcome.taken;
   mixing_.clear();
@@ -338,7 +346,7 @@ SteadyIteration::Outcome SteadyIteration::attemptInTime(State& state) {
 
 void SteadyIteration::waitForNewton() {
   waits_ = pause_;
-  pause_ = std::min(2 * pause_, mostPause);
+  if (!step_) pause_ = std::min(2 * pause_, mostPause);
 }
 
 void SteadyIteration::takeBack(State& state, double measure) {
@@ -358,6 +366,10 @@ SteadyIteration::Outcome SteadyIteration::tryOne(State& state, bool mayAccelerat
   const double last = measure_;
   int newtonIterations = 0;
   bool isTakenBack = false;
+  if (step_ && !mayAccelerate) {
+    mayAccelerate = ofGasAlone_ == mostOfGasAlone;
+    ofGasAlone_ = mayAccelerate ? 0 : ofGasAlone_ + 1;
+  }
   if (step_ && last - ofCarried(state, through(state)) >= options_.inTime) return attemptInTime(state);
   if (newton_ && mayAccelerate && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
     const Outcome outcome = attemptTogether(state);
@@ -367,8 +379,15 @@ SteadyIteration::Outcome SteadyIteration::tryOne(State& state, bool mayAccelerat
     takeBack(state, last);
     waitForNewton();
   }
+  Outcome outcome;
+  if (step_ && mayAccelerate) {
+    outcome = attemptInTime(state);
+    outcome.newtonIterations += newtonIterations;
+    outcome.newtonTakenBack = isTakenBack;
+    return outcome;
+  }
   courant_ = std::min(courant_, options_.mostCourant);
-  Outcome outcome = attempt(state, mayAccelerate);
+  outcome = attempt(state, mayAccelerate);
   outcome.newtonIterations = newtonIterations;
   outcome.newtonTakenBack = isTakenBack;
   isLimited_ = !outcome.taken || outcome.limited > 0;

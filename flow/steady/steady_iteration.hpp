@@ -43,7 +43,9 @@ class SteadyIteration {
     // The same, but what is left of all that is carried, above which, where gas that eddies stir reacts, iterations are
     // steps of one time (ImplicitStep): Newton's method after them knows the eddies.
     double inTime = 1e-5;
-    bool oneTime = false;  // whether they are
+    // Whether they are; below that, too, where Newton's method leads nowhere. Where the flow rests (mayAccelerate
+    // false) the gas alone changes then, twice in a row.
+    bool oneTime = false;
   };
 
   // Collective. `operators`: whose rates act in the cells; they have to live as long. The state is evaluated.
@@ -122,6 +124,7 @@ class SteadyIteration {
   bool isLimited_ = true;  // cells of the last iteration could not take all of their change, or it has failed
   static constexpr int leastPause = 5;
   int waits_ = 0, pause_ = leastPause;  // iterations before Newton's method is tried again; of the next time
+  int ofGasAlone_ = 0;                  // iterations in a row
   double measure_ = 0.0;
   Outcome last_;
   std::vector<double> inertia_, carriedInertia_, flowInertia_;  // kg/s, owned cells
