@@ -11,7 +11,7 @@
 namespace lampblack::flow {
 namespace {
 
-constexpr int krylov = 60;
+constexpr int krylov = 150;
 constexpr double gasOfPreconditioner = 0.1;
 constexpr int mostOfPreconditioner = 1;  // more leave as many iterations around them
 constexpr double carriedOfPreconditioner = 0.1;

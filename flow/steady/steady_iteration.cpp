@@ -209,7 +209,7 @@ void SteadyIteration::advanceCarried(State& state) {
   }
 }
 
-SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelerate) {
+SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayCombine) {
   Outcome outcome;
   outcome.courant = courant_;
   const double last = measure_;
@@ -228,7 +228,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
     hurry();
     // After steps of one time the gas alone goes on where the flow rests: what one after the other makes of flow and
     // eddies grows.
-    const bool isOfGasAlone = step_ && !mayAccelerate;
+    const bool isOfGasAlone = step_ && !mayCombine;
     for (int pass = 0; pass < flowPasses && !isOfGasAlone; ++pass) {
       const bool isSame = pass > 0 || (isAtRest && !context_.isClosed());
       residual_.evaluateFlow(state, isSame ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
@@ -237,7 +237,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayAccelera
       outcome.pressureIterations += flow.pressureIterations;
     }
     // One that moves next to nothing because its system was not solved would hold all combinations where it is.
-    if (mayAccelerate && last < options_.accelerated && outcome.limited == 0 && gas.isSolved)
+    if (mayCombine && last < options_.accelerated && outcome.limited == 0 && gas.isSolved)
       accelerate(state);
     else
       mixing_.clear();
@@ -356,22 +356,23 @@ void SteadyIteration::takeBack(State& state, double measure) {
   measure_ = measure;
 }
 
-SteadyIteration::Outcome SteadyIteration::iterate(State& state, bool mayAccelerate) {
-  return last_ = tryOne(state, mayAccelerate);
+SteadyIteration::Outcome SteadyIteration::iterate(State& state, Allowed allowed) {
+  return last_ = tryOne(state, allowed);
 }
 
-SteadyIteration::Outcome SteadyIteration::tryOne(State& state, bool mayAccelerate) {
+SteadyIteration::Outcome SteadyIteration::tryOne(State& state, Allowed allowed) {
   before_ = state;
   if (control_) loadBefore_ = control_->load();
   const double last = measure_;
   int newtonIterations = 0;
   bool isTakenBack = false;
-  if (step_ && !mayAccelerate) {
-    mayAccelerate = ofGasAlone_ == mostOfGasAlone;
-    ofGasAlone_ = mayAccelerate ? 0 : ofGasAlone_ + 1;
+  if (step_ && !allowed.newtons) {
+    const bool all = ofGasAlone_ == mostOfGasAlone;
+    ofGasAlone_ = all ? 0 : ofGasAlone_ + 1;
+    allowed = {.combined = all, .newtons = all};
   }
   if (step_ && last - ofCarried(state, through(state)) >= options_.inTime) return attemptInTime(state);
-  if (newton_ && mayAccelerate && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
+  if (newton_ && allowed.newtons && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
     const Outcome outcome = attemptTogether(state);
     if (outcome.taken) return outcome;
     newtonIterations = outcome.newtonIterations;
@@ -380,14 +381,14 @@ SteadyIteration::Outcome SteadyIteration::tryOne(State& state, bool mayAccelerat
     waitForNewton();
   }
   Outcome outcome;
-  if (step_ && mayAccelerate) {
+  if (step_ && allowed.newtons) {
     outcome = attemptInTime(state);
     outcome.newtonIterations += newtonIterations;
     outcome.newtonTakenBack = isTakenBack;
     return outcome;
   }
   courant_ = std::min(courant_, options_.mostCourant);
-  outcome = attempt(state, mayAccelerate);
+  outcome = attempt(state, allowed.combined);
   outcome.newtonIterations = newtonIterations;
   outcome.newtonTakenBack = isTakenBack;
   isLimited_ = !outcome.taken || outcome.limited > 0;

@@ -67,10 +67,14 @@ class SteadyIteration {
     double largestRise = 0.0;  // K, that the linear system asked for
     std::int64_t limited = 0;  // cells where less than that was taken
   };
-  // Collective. One iteration; leaves the state as it was where it fails, and the next one tries less. `mayAccelerate`:
-  // false where the flow is at rest but for species: what is a small difference of large rates, as of two species in
+  // Collective. One iteration; leaves the state as it was where it fails, and the next one tries less. `allowed`:
+  // not all where the flow is at rest but for species: what is a small difference of large rates, as of two species in
   // equilibrium, an iteration finds by itself, and a combination of several disturbs.
-  Outcome iterate(State& state, bool mayAccelerate = true);
+  struct Allowed {
+    bool combined = true, newtons = true;
+  };
+  Outcome iterate(State& state, Allowed allowed);
+  Outcome iterate(State& state) { return iterate(state, Allowed{}); }
 
   // Of the last iteration; nothing before the first.
   [[nodiscard]] const Outcome& last() const { return last_; }
@@ -83,8 +87,8 @@ class SteadyIteration {
   void saveOrLoad(const State& state, StateArchive& archive);
 
  private:
-  Outcome tryOne(State& state, bool mayAccelerate);
-  Outcome attempt(State& state, bool mayAccelerate);
+  Outcome tryOne(State& state, Allowed allowed);
+  Outcome attempt(State& state, bool mayCombine);
   // The same by Newton's method.
   Outcome attemptTogether(State& state);
   // The same by a step of one time, and a shorter one where that fails, several times.

@@ -42,9 +42,12 @@ class SteadySearch {
   [[nodiscard]] bool isSteady() const { return isSteady_; }
   // Whether nothing is left of momentum, as far as the search asks for it.
   [[nodiscard]] bool isFlowAtRest() const { return latest_.ofMomentum <= options_.residual; }
-  // Whether iterations may be Newton's or combined (SteadyIteration): no more where the flow is at rest, but for a
-  // while where those by themselves then lead nowhere.
+  // Whether iterations may be combined (SteadyIteration): no more where the flow is at rest, but for a while where
+  // those by themselves then lead nowhere.
   [[nodiscard]] bool mayAccelerate() const { return !isFlowAtRest() || combined_ > 0; }
+  // Whether they may be Newton's: besides, until nothing is left of enthalpy, either; an iteration by itself would
+  // bring back more of both than it takes away of the radicals.
+  [[nodiscard]] bool mayBeNewtons() const { return mayAccelerate() || latest_.ofEnthalpy > options_.residual; }
   // Whether iterations and returns are used up.
   [[nodiscard]] bool isGivenUp() const { return isGivenUp_; }
   // Whether the residual of the state after the last step has to be told before the next.

@@ -377,7 +377,7 @@ TEST_F(SteadyIterations, AreCombinedOnlyWhereTheyMay) {
     TransportOperator transport(b.context, state);
     transport.initialise(state, 1e-4);
     SteadyIteration iteration(b.context, state, {.accelerated = accelerated, .newton = false}, {&transport});
-    for (int i = 0; i < 6; ++i) iteration.iterate(state, mayAccelerate);
+    for (int i = 0; i < 6; ++i) iteration.iterate(state, {mayAccelerate, mayAccelerate});
     return state.temperature;
   };
   const std::vector<double> plain = after(0.0, true);

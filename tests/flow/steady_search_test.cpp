@@ -30,6 +30,12 @@ TEST(SteadySearch, KnowsAFlowThatIsAtRest) {
   search.addIteration({1e-3, 1e-8, 1e-5}, 1.0);
   pass(search, other);
   EXPECT_TRUE(search.isFlowAtRest() && other.isFlowAtRest() && !search.isSteady());
+  // Of enthalpy there is more: Newton's method may go on, combinations may not.
+  EXPECT_TRUE(search.mayBeNewtons() && other.mayBeNewtons() && !search.mayAccelerate());
+  search.addIteration({1e-3, 1e-8, 1e-8}, 1.0);
+  EXPECT_FALSE(search.mayBeNewtons());
+  search.addIteration({1e-3, 2e-7, 1e-8}, 1.0);
+  EXPECT_TRUE(search.mayBeNewtons() && search.mayAccelerate());
 }
 
 // Where a flow at rest is left with something that iterations by themselves do not take away, as where eddies mix, they

@@ -128,7 +128,8 @@ void FlowLoop::iterate(Outputs& outputs) {
     SteadyIteration::Outcome outcome;
     {
       const Timers::Scope timer(timers_, "steady iterations");
-      outcome = iteration_->iterate(domain_->state, search_->mayAccelerate());
+      outcome = iteration_->iterate(domain_->state,
+                                    {.combined = search_->mayAccelerate(), .newtons = search_->mayBeNewtons()});
     }
     ++steps_;
     if (outcome.taken) {
