@@ -43,8 +43,8 @@ class SteadyIteration {
     // The same, but what is left of all that is carried, above which, where gas that eddies stir reacts, iterations are
     // steps of one time (ImplicitStep): Newton's method after them knows the eddies.
     double inTime = 1e-5;
-    // Whether they are; below that, too, where Newton's method leads nowhere. Where the flow rests (mayAccelerate
-    // false) the gas alone changes then, twice in a row.
+    // Whether they are; below that, too, where Newton's method leads nowhere. Where the flow rests (Newton's method
+    // not allowed) the gas alone changes then, twice in a row.
     bool oneTime = false;
   };
 
