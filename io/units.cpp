@@ -192,6 +192,24 @@ std::optional<std::pair<double, std::size_t>> leadingNumber(std::string_view tex
   return std::pair{value + 0.0, used};  // zero has no sign: a written -0 reads back as it was read
 }
 
+// Of what follows the digits of a number and is no unit: how numbers are written here. Empty where that is not the
+// cause.
+std::string numberAsWrittenHere(std::string_view behind) {
+  const auto digitAt = [&](std::size_t at) { return at < behind.size() && isDigit(behind[at]); };
+  if (behind.empty()) return {};
+  const char first = behind.front();
+  if (first == ',' && digitAt(1)) return "; a number has a decimal point, 1.5";
+  if ((first == '_' || first == '\'' || first == '.') && digitAt(1)) return "; the digits of a number stand together";
+  if (isDigit(first)) return "; the digits of a number stand together";
+  const bool isExponent = first == 'd' || first == 'D' || first == 'e' || first == 'E';
+  if (isExponent && (digitAt(1) || ((behind[1] == '-' || behind[1] == '+') && digitAt(2)))) return "; write 1e-3";
+  if (behind.find("\u2212") != std::string_view::npos || behind.find("\u2013") != std::string_view::npos)
+    return "; write the minus as '-', of the keyboard";
+  if (behind.find("\u00a0") != std::string_view::npos || behind.find("\u202f") != std::string_view::npos)
+    return "; one of its blanks is a special character, as in texts that are copied; write a blank";
+  return {};
+}
+
 std::string expected(const Dimension& dimension) {
   const std::string sample = example(dimension);
   return sample.empty() ? describe(dimension) : fmt::format("{} (for instance '{}')", describe(dimension), sample);
@@ -252,7 +270,8 @@ double parseQuantity(std::string_view text, const Dimension& dimension) {
   try {
     unit = parseUnit(rest);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("expected {}, found '{}': {}", expected(dimension), text, error.what()));
+    throw InputError(fmt::format("expected {}, found '{}': {}{}", expected(dimension), text, error.what(),
+                                 numberAsWrittenHere(rest)));
   }
   if (unit.dimension != dimension) {
     throw InputError(fmt::format("expected {}, found '{}', {}", expected(dimension), text, describe(unit.dimension)));

@@ -31,7 +31,8 @@ std::string unknownOption(const CLI::App& command, const std::string& word) {
     for (const std::string& name : known->get_lnames()) names.push_back("--" + name);
   const bool isRanks = option == "-n" || option == "-np" || option == "--np" || option == "-j";
   const bool hasRanks = std::ranges::find(names, "--ranks") != names.end();
-  return fmt::format("'lampblack {}' has no option '{}'{}", command.get_name(), option,
+  const std::string name = command.get_parent() == nullptr ? "" : " " + command.get_name();
+  return fmt::format("'lampblack{}' has no option '{}'{}", name, option,
                      isRanks && hasRanks ? "; did you mean '--ranks'?" : didYouMean(option, names));
 }
 
@@ -39,7 +40,8 @@ std::string unknownOption(const CLI::App& command, const std::string& word) {
 
 std::string commandMistake(const CLI::App& app, const std::vector<std::string>& words) {
   const auto parsed = app.get_subcommands();
-  if (parsed.empty()) return words.empty() || words[0].starts_with('-') ? std::string() : unknownCommand(app, words[0]);
+  if (parsed.empty() && words.empty()) return {};
+  if (parsed.empty()) return words[0].starts_with('-') ? unknownOption(app, words[0]) : unknownCommand(app, words[0]);
   const std::vector<std::string> extra = parsed[0]->remaining();
   if (extra.empty()) return {};
   const auto option = std::ranges::find_if(extra, [](const auto& word) { return word.starts_with('-'); });

@@ -43,6 +43,20 @@ bool isAir(std::string_view name) {
   return name == "air" || name == "Air" || name == "AIR";
 }
 
+// What is in place of a number, up to the next blank, and what to write.
+std::string insteadOfNumber(std::string_view rest) {
+  const auto found = rest.substr(0, static_cast<std::size_t>(std::ranges::find_if(rest, isBlank) - rest.begin()));
+  if (found.empty()) return {};
+  const char* hint = "";
+  if (found.ends_with(';'))
+    hint = "; commas or blanks part the pairs";
+  else if (found.ends_with('%'))
+    hint = "; leave out '%', the amounts need not add up to one";
+  else if (found.find('/') != std::string_view::npos)
+    hint = "; write a decimal number";
+  return fmt::format(", found '{}'{}", found, hint);
+}
+
 }  // namespace
 
 // A name that has ':' or '=', or begins or ends with a blank or comma, stands in quotes: "'a=b': 1".
@@ -68,8 +82,14 @@ std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view te
     const auto parsed = std::from_chars(rest.data(), rest.data() + rest.size(), amount);
     const auto length = static_cast<std::size_t>(parsed.ptr - rest.data());
     if (parsed.ec != std::errc{} || !std::isfinite(amount) || (length < rest.size() && !isBlank(rest[length])))
-      throw InputError(fmt::format("{} '{}': expected a number after '{}:'", what, text, name));
+      throw InputError(
+          fmt::format("{} '{}': expected a number after '{}:'{}", what, text, name, insteadOfNumber(rest)));
     if (amount < 0) throw InputError(fmt::format("{} '{}': negative amount of '{}'", what, text, name));
+    if (isAir(name) && !mechanism.findSpecies(name))
+      throw InputError(
+          fmt::format("{} '{}': '{}' is a mixture; name its species with their amounts, 'O2: 0.21, N2: "
+                      "0.79' of an amount of one",
+                      what, text, name));
     const auto k = mechanism.speciesIndex(name);
     if (given[k]) throw InputError(fmt::format("{} '{}': '{}' is given twice", what, text, name));
     given[k] = true;

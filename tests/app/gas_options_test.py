@@ -225,6 +225,7 @@ def command_line(check: Checker) -> None:
                         (("chekc", deck), "there is no command 'chekc'; did you mean 'check'? Commands: run, check"),
                         (("run", deck, "-np", "2"), "'lampblack run' has no option '-np'; did you mean '--ranks'?"),
                         (("run", deck, "--fource"), "has no option '--fource'; did you mean '--force'?"),
+                        (("--verison",), "'lampblack' has no option '--verison'; did you mean '--version'?"),
                         (("run", deck, "--set", "pressure=1", "bar"), '--set "pressure=1 bar"'),
                         (("run", deck, "--set", "title=a", "pressure=1"), "each setting has its own --set: --set pressure=1"),
                         (("run", deck, "--ranks", "0"), "Value 0 not in range 1 to ")):

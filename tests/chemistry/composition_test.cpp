@@ -86,6 +86,11 @@ TEST(Composition, SaysWhatIsWrong) {
   EXPECT_THAT(messageOf("H2: 1, H2: 2"), HasSubstr("twice"));
   EXPECT_THAT(messageOf("H2: one"), HasSubstr("expected a number"));
   EXPECT_THAT(messageOf("H2: 1x, O2: 1"), HasSubstr("expected a number"));
+  EXPECT_THAT(messageOf("H2: 2; O2: 1"), HasSubstr("expected a number after 'H2:', found '2;'; commas or blanks part"));
+  EXPECT_THAT(messageOf("H2:20%, O2:80%"), HasSubstr("found '20%'; leave out '%'"));
+  EXPECT_THAT(messageOf("H2: 2/3, O2: 1/3"), HasSubstr("found '2/3'; write a decimal number"));
+  EXPECT_THAT(messageOf("H2:"), HasSubstr("expected a number after 'H2:'"));
+  EXPECT_THAT(messageOf("H2: 2, AIR: 4.76"), HasSubstr("'AIR' is a mixture; name its species"));
   EXPECT_THAT(messageOf("H2: nan"), HasSubstr("expected a number"));
   EXPECT_THAT(messageOf("'H2: 1, O2: 2"), HasSubstr("the quote before 'H2: 1, O2: 2' is not closed"));
   EXPECT_THAT(messageOf("'H2' x: 1"), HasSubstr("expected ':' after the name 'H2'"));
