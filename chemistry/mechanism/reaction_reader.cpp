@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <utility>
 
 #include "chemistry/mechanism/collider_reader.hpp"
@@ -37,6 +38,28 @@ constexpr std::array<std::pair<std::string_view, Type>, 19> kTypes{{
     {"pressure-dependent-Arrhenius", Type::PressureLog},
     {"Chebyshev", Type::Chebyshev},
     {"linear-Burke", Type::LinearBurke},
+}};
+
+// Keys that not all types of reactions have.
+struct KeyOfTypes {
+  std::string_view key;
+  std::initializer_list<Type> types;
+};
+constexpr std::array<KeyOfTypes, 14> kKeysOfTypes{{
+    {"rate-constant", {Type::Elementary, Type::ThreeBody}},
+    {"rate-constants", {Type::PressureLog}},
+    {"low-P-rate-constant", {Type::Falloff, Type::ChemicallyActivated}},
+    {"high-P-rate-constant", {Type::Falloff, Type::ChemicallyActivated}},
+    {"Troe", {Type::Falloff, Type::ChemicallyActivated}},
+    {"SRI", {Type::Falloff, Type::ChemicallyActivated}},
+    {"Tsang", {Type::Falloff, Type::ChemicallyActivated}},
+    {"efficiencies", {Type::Elementary, Type::ThreeBody, Type::Falloff, Type::ChemicallyActivated}},
+    {"default-efficiency", {Type::Elementary, Type::ThreeBody, Type::Falloff, Type::ChemicallyActivated}},
+    {"negative-A", {Type::Elementary, Type::ThreeBody, Type::Falloff, Type::ChemicallyActivated}},
+    {"temperature-range", {Type::Chebyshev}},
+    {"pressure-range", {Type::Chebyshev}},
+    {"data", {Type::Chebyshev}},
+    {"colliders", {Type::LinearBurke}},
 }};
 
 bool has(const ParsedEquation::Side& side, std::string_view name) {
@@ -137,30 +160,38 @@ class ReactionReader {
     }
   }
 
-  void checkKeys() const {
-    switch (reaction_.type) {
-      case Type::Elementary:
-      case Type::ThreeBody:
-        return entry_.allowOnly({"equation", "type", "units", "rate-constant", "efficiencies", "default-efficiency",
-                                 "duplicate", "orders", "negative-orders", "nonreactant-orders", "negative-A", "note",
-                                 "id", "reference", "comment"});
-      case Type::Falloff:
-      case Type::ChemicallyActivated:
-        return entry_.allowOnly({"equation", "type", "units", "low-P-rate-constant", "high-P-rate-constant", "Troe",
-                                 "SRI", "Tsang", "efficiencies", "default-efficiency", "duplicate", "orders",
-                                 "negative-orders", "nonreactant-orders", "negative-A", "note", "id", "reference",
-                                 "comment"});
-      case Type::PressureLog:
-        return entry_.allowOnly({"equation", "type", "units", "rate-constants", "duplicate", "orders",
-                                 "negative-orders", "nonreactant-orders", "note", "id", "reference", "comment"});
-      case Type::Chebyshev:
-        return entry_.allowOnly({"equation", "type", "units", "temperature-range", "pressure-range", "data",
-                                 "duplicate", "orders", "negative-orders", "nonreactant-orders", "note", "id",
-                                 "reference", "comment"});
-      case Type::LinearBurke:
-        return entry_.allowOnly({"equation", "type", "units", "colliders", "duplicate", "orders", "negative-orders",
-                                 "nonreactant-orders", "note", "id", "reference", "comment"});
-    }
+  // What no type of reaction has is for another program.
+  void checkKeys() {
+    entry_.warnOfOthers({"equation",
+                         "type",
+                         "units",
+                         "duplicate",
+                         "orders",
+                         "negative-orders",
+                         "nonreactant-orders",
+                         "note",
+                         "id",
+                         "reference",
+                         "comment",
+                         "rate-constant",
+                         "rate-constants",
+                         "low-P-rate-constant",
+                         "high-P-rate-constant",
+                         "Troe",
+                         "SRI",
+                         "Tsang",
+                         "efficiencies",
+                         "default-efficiency",
+                         "negative-A",
+                         "temperature-range",
+                         "pressure-range",
+                         "data",
+                         "colliders"},
+                        warnings_);
+    for (const auto& [key, types] : kKeysOfTypes)
+      if (const auto* found = entry_.find(key);
+          found != nullptr && std::ranges::find(types, reaction_.type) == types.end())
+        fail(*found, fmt::format("'{}' does not belong to a reaction of this type", key));
   }
 
   std::size_t index(std::string_view name) const {

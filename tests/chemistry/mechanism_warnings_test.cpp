@@ -144,6 +144,23 @@ TEST(MechanismWarnings, OwnKeysOfASpecies) {
   EXPECT_THROW(with("", "", ", dipol: 1"), InputError);
 }
 
+// What no type of reaction has is for another program; what another type has would be lost in silence.
+TEST(MechanismWarnings, OwnKeysOfAReaction) {
+  const auto with = [](const std::string& more) {
+    return readText("species: [H, O2, HO2]", R"(
+- {name: H, composition: {H: 1}, thermo: *t}
+- {name: O2, composition: {O: 2}, thermo: *t}
+- {name: HO2, composition: {H: 1, O: 2}, thermo: *t})",
+                    "- {equation: H + O2 <=> HO2, rate-constant: [1, 0, 0]" + more + "}");
+  };
+  EXPECT_THAT(with(", uncertainty: {f: 2}, my-tag: 1").warnings(),
+              ElementsAre(HasSubstr("reaction 'H + O2 <=> HO2': unknown key 'uncertainty'; the nearest known key is "),
+                          HasSubstr("'my-tag'")));
+  for (const std::string foreign : {"Troe: {}", "colliders: []", "data: []", "rate-constants: []"})
+    EXPECT_THROW(with(", " + foreign), InputError) << foreign;
+  EXPECT_THROW(with(", efficiences: {H: 2}"), InputError) << "a slip";
+}
+
 // A rate that is zero at all pressures, and one mark too many, in YAML.
 TEST(MechanismWarnings, TablesOfZerosAndMarksTooMany) {
   const auto mechanism = readText("species: [H, O2, HO2]", R"(
