@@ -30,6 +30,7 @@ GridTable::GridTable(const std::filesystem::path& file, std::vector<Coordinate> 
       const bool isCoordinate = coordinate != coordinates_.end();
       const auto dimension = isCoordinate ? coordinate->dimension : dimensionOf(name);
       if (!dimension) continue;
+      static_cast<void>(columns.find({name}));  // refuses another of this name
       std::vector<double> values = columns.read(column, *dimension);
       if (isCoordinate) {
         numbers.places[static_cast<std::size_t>(coordinate - coordinates_.begin())] = std::move(values);

@@ -50,6 +50,13 @@ TEST_F(Tables, AreLinearBetweenPointsAndConstantBeyond) {
   EXPECT_NEAR(at(1.0), 0.30, 1e-15);
 }
 
+TEST_F(Tables, NoTwoColumnsSayTheSame) {
+  EXPECT_THAT(problem("z [mm],velocity [cm/s],temperature,velocity [m/s]\n0,10,300,2\n"),
+              HasSubstr("table.csv: two columns say the same, 'velocity [cm/s]' and 'velocity [m/s]'; leave one out"));
+  EXPECT_THAT(problem("z,z [mm],velocity\n0,0,1\n"), HasSubstr("'z' and 'z [mm]'"));
+  EXPECT_EQ(read("z,note,note,velocity\n0,a,b,1\n").names().size(), 1U);
+}
+
 TEST_F(Tables, UnitsStandInBracketsWithABlankOrWithout) {
   using Pair = std::pair<std::string, std::string>;
   EXPECT_EQ(nameAndUnit("velocity [cm/s]"), (Pair{"velocity", "cm/s"}));
