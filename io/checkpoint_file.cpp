@@ -151,6 +151,17 @@ CheckpointReader::CheckpointReader(MPI_Comm comm, const std::filesystem::path& p
   });
 }
 
+std::string CheckpointReader::kept(const std::string& name) const {
+  std::string place = dataset(name);
+  if (!file_->has(place))
+    throw InputError(
+        fmt::format("{}: this checkpoint has no {}: another version of Lampblack wrote it, which kept less of such a "
+                    "run. Begin a new run instead; a flow can begin from the results of the interrupted one "
+                    "(initial.flow.results)",
+                    file_->name(), place));
+  return place;
+}
+
 void CheckpointReader::renumber(const StateNumbers& numbers) {
   cells_ = BlockExchange(comm_, numbers.cells, numbers.totalCells);
   faces_ = BlockExchange(comm_, numbers.faces, numbers.totalFaces);
@@ -160,7 +171,7 @@ void CheckpointReader::ordered(const BlockExchange& exchange, const std::string&
                                int width) {
   std::vector<double> block;
   collectively(comm_, [&] {
-    const std::string place = dataset(name);
+    const std::string place = kept(name);
     if (file_->shape(place) != std::vector<std::int64_t>{exchange.total(), width})
       throw InputError(fmt::format("{}: {} does not have the shape that this run needs", file_->name(), place));
     block = file_->rows(place, exchange.first(), exchange.count());
@@ -196,7 +207,7 @@ void CheckpointReader::rows(const std::string& name, std::vector<std::vector<dou
   std::int64_t total = 0;
   std::vector<std::int64_t> lengths;
   collectively(comm_, [&] {
-    const auto shape = file_->shape(dataset(name));
+    const auto shape = file_->shape(kept(name));
     std::error_code error;
     const std::uintmax_t bytes = std::filesystem::file_size(file_->name(), error);
     // No more than there are bytes for, so that no sum of lengths is more than there are integers.
@@ -222,7 +233,7 @@ void CheckpointReader::rows(const std::string& name, std::vector<std::vector<dou
 
 void CheckpointReader::sums(const std::string& name, std::span<double> values) {
   collectively(comm_, [&] {
-    const auto shape = file_->shape(dataset(name));
+    const auto shape = file_->shape(kept(name));
     const auto width = static_cast<std::int64_t>(values.size());
     if (shape.size() != 2 || shape[1] != width)
       throw InputError(fmt::format("{}: {} does not have the shape that this run needs", file_->name(), dataset(name)));
@@ -237,12 +248,12 @@ void CheckpointReader::sums(const std::string& name, std::span<double> values) {
 }
 
 void CheckpointReader::shared(const std::string& name, std::vector<double>& values) {
-  collectively(comm_, [&] { values = file_->numbers(dataset(name)); });
+  collectively(comm_, [&] { values = file_->numbers(kept(name)); });
 }
 
 std::vector<std::string> CheckpointReader::texts(const std::string& name) const {
   std::vector<std::string> values;
-  collectively(comm_, [&] { values = file_->texts(dataset(name)); });
+  collectively(comm_, [&] { values = file_->texts(kept(name)); });
   return values;
 }
 

@@ -7,6 +7,7 @@
 
 #include <csignal>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -212,9 +213,17 @@ TEST(CheckpointRows, ThatAFileDoesNotHaveAreRefusedByAllRanks) {
   const StateNumbers numbers = numbersOf(MPI_COMM_WORLD, 0);
   CheckpointReader reader(MPI_COMM_WORLD, folder.path() / "rows.h5", numbers, {});
   Rows rows(numbers.cells.size());
-  for (const char* name : {"others", "after"})
-    EXPECT_THAT(test::messageOf<InputError>([&] { reader.rows(name, rows); }),
-                testing::HasSubstr(fmt::format("/state/{}", name)));
+  const auto refusal = [&](const std::function<void()>& load) { return test::messageOf<InputError>(load); };
+  EXPECT_THAT(refusal([&] { reader.rows("after", rows); }), testing::HasSubstr("/state/after is no list of values"));
+  // What another version has not kept is told as that, whatever it is.
+  std::vector<double> values(numbers.cells.size());
+  for (const std::function<void()>& load : std::vector<std::function<void()>>{
+           [&] { reader.rows("others", rows); }, [&] { reader.cells("others", values, 1); },
+           [&] { reader.sums("others", values); }, [&] { reader.shared("others", values); },
+           [&] { static_cast<void>(reader.texts("others")); }})
+    EXPECT_THAT(refusal(load),
+                testing::ContainsRegex("rows.h5: this checkpoint has no /state/others: another version .* "
+                                       "\\(initial.flow.results\\)"));
 }
 
 // A disk (here: a limit on the file's size) that cannot take the values: all ranks say so, and nothing is left.

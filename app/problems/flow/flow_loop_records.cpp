@@ -297,7 +297,9 @@ void FlowLoop::saveOrLoad(StateArchive& archive, std::vector<double>& history) {
   if (!archive.loading()) return;
   collectively(comm_, [&] {
     if (clock.size() != 8 || (stored != common && !hasSteady))
-      throw InputError("the checkpoint was written by another version of Lampblack, with another history");
+      throw InputError(
+          "the checkpoint was written by another version of Lampblack, with another history; begin a new run instead, "
+          "from the results of the interrupted one (initial.flow.results)");
   });
   history = withWidth(history, stored, common, width);
   time_ = clock[0];
