@@ -77,14 +77,29 @@ TEST(PahCase, WhatIsNoMoleculeIsRefused) {
   EXPECT_THAT(refused("{name: pyrene, most_rings: 3}", hotGas), HasSubstr("expected 4 or more"));
 }
 
+// What takes no part may be named, before and behind what does, and changes nothing.
+TEST(PahCase, GasesWithoutPartMayBeNamed) {
+  const auto concentrations = [](const std::string& x) {
+    return readPah(pyreneMolecule, "{temperature: 1500 K, pressure: 1 atm, mole_fractions: {" + x + "}, end: 1 ms}")
+        .path.points[0]
+        .concentrations;
+  };
+  const std::vector<double> without = concentrations("H: 0.01, C2H2: 0.1");
+  EXPECT_EQ(concentrations("N2: 0.5, H: 0.01, AR: 0.2, C2H2: 0.1, CO: 0.1"), without);
+  EXPECT_EQ(std::ranges::count(without, 0.0), 4);
+}
+
 TEST(PahCase, WhatIsNoGasIsRefused) {
   EXPECT_THAT(refused(pyreneMolecule, "{temperature: 1500 K, pressure: 1 atm, end: 1 s}"),
               HasSubstr("needs the key 'mole_fractions'"));
   const auto fractions = [](const std::string& x) {
     return "{temperature: 1500 K, pressure: 1 atm, mole_fractions: {" + x + "}, end: 1 ms}";
   };
-  EXPECT_THAT(refused(pyreneMolecule, fractions("N2: 0.9")), HasSubstr("H, H2, OH, H2O, O2, C2H2 only"));
+  for (const std::string slip : {"N3: 0.9", "H20: 0.1", "C2H: 0.1"})
+    EXPECT_THAT(refused(pyreneMolecule, fractions(slip)),
+                HasSubstr("H, H2, OH, H2O, O2, C2H2 only; of others N2, Ar, He, Ne, Kr, CO, CO2, CH4 may be named"));
   EXPECT_THAT(refused(pyreneMolecule, fractions("H: 0.6, H2: 0.6")), HasSubstr("add up to 1.2"));
+  EXPECT_THAT(refused(pyreneMolecule, fractions("H: 0.6, AR: 0.6")), HasSubstr("add up to 1.2"));
   EXPECT_THAT(refused(pyreneMolecule, "{file: gas.csv, temperature: 1500 K}", "mechanism: a.yaml"),
               HasSubstr("leave this out"));
   EXPECT_THAT(refused(pyreneMolecule, "{file: gas.csv}"), HasSubstr("'mechanism' is needed"));

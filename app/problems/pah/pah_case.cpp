@@ -4,7 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include "app/deck/gas_input.hpp"
 #include "app/deck/pah_rates_deck.hpp"
@@ -12,6 +14,7 @@
 #include "chemistry/mechanism/known_species.hpp"
 #include "core/constants.hpp"
 #include "core/errors.hpp"
+#include "core/letter_case.hpp"
 #include "core/text_file.hpp"
 #include "coupling/given_gas.hpp"
 #include "io/deck_keys.hpp"
@@ -48,6 +51,9 @@ void readMolecule(const Deck& deck, PahCase& pah) {
     throw deck.error("molecule.most_rings", fmt::format("expected {} or more, as the molecule has", rings));
 }
 
+// What is often beside the species that molecules react with, and takes no part. Any other name may be a slip.
+constexpr std::array<std::string_view, 8> gasesWithoutPart{"N2", "Ar", "He", "Ne", "Kr", "CO", "CO2", "CH4"};
+
 // A gas that stays as it is.
 ParticlePath constantGas(const Deck& deck) {
   for (const char* key : {"temperature", "pressure", "mole_fractions", "end"})
@@ -64,12 +70,14 @@ ParticlePath constantGas(const Deck& deck) {
   double sum = 0;
   for (const std::string& name : deck.children("gas.mole_fractions")) {
     const std::string key = "gas.mole_fractions." + name;
+    const double share = deck.number(key);
+    sum += share;
     const auto found = std::ranges::find(names, name);
-    if (found == names.end())
-      throw deck.error(key, fmt::format("molecules react with {} only; leave the others out, which need not be named",
-                                        fmt::join(names, ", ")));
-    sum += deck.number(key);
-    sample.concentrations[static_cast<std::size_t>(found - names.begin())] = total * deck.number(key);
+    if (found != names.end())
+      sample.concentrations[static_cast<std::size_t>(found - names.begin())] = total * share;
+    else if (std::ranges::none_of(gasesWithoutPart, [&](std::string_view gas) { return sameInAnyCase(gas, name); }))
+      throw deck.error(key, fmt::format("molecules react with {} only; of others {} may be named; leave this out",
+                                        fmt::join(names, ", "), fmt::join(gasesWithoutPart, ", ")));
   }
   if (sum > 1 + 1e-9) throw deck.error("gas.mole_fractions", fmt::format("they add up to {:g}, more than one", sum));
   ParticlePath path;
@@ -159,9 +167,11 @@ DeckSchema pahSchema() {
   keys.quantity("gas.temperature", units::temperature, rules().optional().above(0),
                 "Temperature of a gas that stays as it is.");
   keys.quantity("gas.pressure", units::pressure, rules().optional().above(0), "Pressure of a gas that stays as it is.");
-  keys.number("gas.mole_fractions.*", rules().optional().atLeast(0).atMost(1),
-              "Mole fraction of a species that molecules react with, one of H, H2, OH, H2O, O2, C2H2; all others take "
-              "no part and are not named.");
+  keys.number(
+      "gas.mole_fractions.*", rules().optional().atLeast(0).atMost(1),
+      fmt::format("Mole fraction of a species that molecules react with, one of {}. All others take no part and "
+                  "need not be named; these may be: {}.",
+                  fmt::join(pahGasSpeciesNames(), ", "), fmt::join(gasesWithoutPart, ", ")));
   addGivenGasKeys(keys.schema());
   keys.choice("description", {"lattice", "sites"}, rules().byDefault("lattice"),
               "What is known of a molecule. lattice: where its rings are; sites: how many sites of each type it has, "
