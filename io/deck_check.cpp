@@ -109,7 +109,9 @@ class Checker {
     std::vector<std::string> here;
     for (const SchemaNode& child : schema.children)
       if (child.name != "[]") here.push_back(child.name);
-    std::string hint = byOtherName(node.name, here);
+    std::string hint = byOtherName(node.name, here, schema_.otherNames());
+    if (hint.empty() && node.kind == DeckNode::Kind::null && node.name.find_first_of("0123456789") == 0)
+      hint = "; a number has a decimal point, 1.5.";  // what is behind the comma of "{end: 1,5 ms}"
     if (hint.empty() && node.name.find(':') != std::string::npos)
       hint = "; a text with a comma in it stands in quotes, \"H2: 2, O2: 1\".";
     if (hint.empty()) hint = didYouMeanOneOf(ofParts(schema, node.name));
@@ -131,8 +133,9 @@ class Checker {
     if (schema.key == nullptr) {
       readSection(schema, node, path, enclosing);
     } else if (node != nullptr) {
-      mistakes_.collect(node->at.line > 0 ? node->at : node->nameAt,
-                        [&] { values_.push_back(readDeckValue(source_, *schema.key, path, *node)); });
+      mistakes_.collect(node->at.line > 0 ? node->at : node->nameAt, [&] {
+        values_.push_back(readDeckValue(source_, *schema.key, path, *node, schema_.otherNames()));
+      });
     } else if (schema.key->presence == Presence::defaulted) {
       values_.push_back(defaultDeckValue(*schema.key, path));
     } else if (schema.key->presence == Presence::required && !hasUnknown_.contains(&enclosing)) {

@@ -14,36 +14,8 @@
 
 namespace lampblack::io {
 
-std::string byOtherName(std::string_view name, const std::vector<std::string>& here) {
-  using Names = std::pair<std::string_view, std::string_view>;
-  for (const auto& [other, known] : {Names("mole_fractions", "composition"),
-                                     Names("X", "composition"),
-                                     Names("Y", "mass_fractions"),
-                                     Names("reactants", "composition"),
-                                     Names("phi", "equivalence_ratio"),
-                                     Names("T", "temperature"),
-                                     Names("p", "pressure"),
-                                     Names("P", "pressure"),
-                                     Names("composition", "mole_fractions"),
-                                     Names("gas", "charge"),
-                                     Names("psr", "stirred"),
-                                     Names("cstr", "stirred"),
-                                     Names("pfr", "plug_flow"),
-                                     Names("IdealGasReactor", "constant_volume"),
-                                     Names("IdealGasConstPressureReactor", "constant_pressure"),
-                                     Names("ConstPressureReactor", "constant_pressure"),
-                                     Names("diffusion", "counterflow"),
-                                     Names("premixed", "free"),
-                                     Names("freeflame", "free"),
-                                     Names("stagnation", "wall"),
-                                     Names("kEpsilon", "k_epsilon"),
-                                     Names("kOmegaSST", "sst"),
-                                     Names("kOmega", "k_omega"),
-                                     Names("SpalartAllmaras", "sa"),
-                                     Names("2d", "planar"),
-                                     Names("cartesian", "planar"),
-                                     Names("cylindrical", "axisymmetric"),
-                                     Names("3d", "space")})
+std::string byOtherName(std::string_view name, const std::vector<std::string>& here, const OtherNames& otherNames) {
+  for (const auto& [other, known] : otherNames)
     if (sameInAnyCase(name, other) && (name.size() > 1 || name == other) &&
         std::ranges::find(here, known) != here.end())
       return fmt::format("; did you mean '{}'?", known);
@@ -74,10 +46,27 @@ std::string asQuotedText(const DeckNode& map) {
   return fmt::format("; write it in quotes, \"{}\"", shortened(text));
 }
 
-std::string whyNotYaml(std::string_view line) {
+namespace {
+
+// "pressure 1 atm" or "pressure:1 atm", and nothing that may stand without a key.
+bool lacksColon(std::string_view line) {
+  const std::size_t text = line.find_first_not_of(' ');
+  if (text == std::string_view::npos || std::isalpha(static_cast<unsigned char>(line[text])) == 0) return false;
+  return !line.ends_with(':') && line.find(": ") == std::string_view::npos &&
+         line.find_first_of("{}[],#\"") == std::string_view::npos &&
+         line.find_first_of(" :", text) != std::string_view::npos;
+}
+
+}  // namespace
+
+std::string whyNotYaml(std::string_view line, std::string_view lineBefore) {
   const std::size_t text = line.find_first_not_of(" \t");
   if (line.substr(0, text).find('\t') != std::string_view::npos) return "; YAML indents by blanks, no tabulators";
   constexpr std::size_t none = std::string_view::npos;
+  while (!lineBefore.empty() && (lineBefore.back() == ' ' || lineBefore.back() == '\r')) lineBefore.remove_suffix(1);
+  if (lacksColon(lineBefore))
+    return fmt::format("; a key ends with a colon and a blank, 'key: value', which the line before lacks: '{}'",
+                       shortened(std::string(lineBefore.substr(lineBefore.find_first_not_of(' ')))));
   for (std::size_t colon = line.find(": "), next = none; colon != none; colon = next) {
     next = line.find(": ", colon + 1);
     // "key: a: b": a key and a value that is itself "a: b", with nothing that begins a map or a list between them.

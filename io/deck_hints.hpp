@@ -11,9 +11,9 @@
 
 namespace lampblack::io {
 
-// "; did you mean 'stirred'?" of "psr": the key or choice here by what other programs and papers call it, where the
+// "; did you mean 'stirred'?" of "psr": the key or choice here that the schema says is called so elsewhere, where the
 // nearest name would be another one. Empty where there is none.
-std::string byOtherName(std::string_view name, const std::vector<std::string>& here);
+std::string byOtherName(std::string_view name, const std::vector<std::string>& here, const OtherNames& otherNames);
 
 // "; did you mean 'a', 'b' or 'c'?" of one to three names.
 std::string didYouMeanOneOf(const std::vector<std::string>& names);
@@ -22,9 +22,9 @@ std::string didYouMeanOneOf(const std::vector<std::string>& names);
 // quotes.
 std::string asQuotedText(const DeckNode& map);
 
-// Of a text that is not YAML, the line of the mistake: what to write where a tabulator or an unquoted text is the
-// cause.
-std::string whyNotYaml(std::string_view line);
+// Of a text that is not YAML, the line of the mistake and that before it: what to write where a tabulator, an unquoted
+// text or a missing colon is the cause.
+std::string whyNotYaml(std::string_view line, std::string_view lineBefore);
 
 // Where a scalar stands in place of a section: ", such as {end: 1 ms}", the first key that can have it.
 std::string asSection(const DeckSource& source, const DeckSchema::Node& section, const DeckNode& scalar);

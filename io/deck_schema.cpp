@@ -223,6 +223,7 @@ DeckSchema& DeckSchema::section(std::string path, Presence presence, std::string
 DeckSchema& DeckSchema::add(const DeckSchema& other) {
   for (const DeckKey& key : other.keys_) add(key);
   for (const DeckSection& part : other.sections_) section(part.path, part.presence, part.doc, part.conditions);
+  calledElsewhere(other.otherNames_);
   if (!other.former_.table.empty()) {
     if (!former_.table.empty()) throw std::logic_error("two parts of a deck's keys have former sections");
     former_ = other.former_;
@@ -245,6 +246,11 @@ DeckSchema& DeckSchema::add(DeckSchema other, const DeckCondition& onlyWith) {
 
 DeckSchema& DeckSchema::formerly(FormerSections sections) {
   former_ = std::move(sections);
+  return *this;
+}
+
+DeckSchema& DeckSchema::calledElsewhere(OtherNames names) {
+  otherNames_.insert(otherNames_.end(), names.begin(), names.end());
   return *this;
 }
 

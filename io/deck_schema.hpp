@@ -141,6 +141,10 @@ struct FormerSections {
   std::function<std::vector<std::string>(const DeckSource&, DeckNode& root, std::vector<std::string>& notes)> settle;
 };
 
+// What other programs and papers call a key or a choice, and its name here: {"psr", "stirred"}. A deck that has the
+// former is told of the latter, where that is known at its place.
+using OtherNames = std::vector<std::pair<std::string, std::string>>;
+
 class DeckSchema {
  public:
   // std::logic_error for a path declared twice, a key that is also a section, and a former name that is another key.
@@ -150,9 +154,11 @@ class DeckSchema {
   // The same, of which all counts only under this condition too.
   DeckSchema& add(DeckSchema other, const DeckCondition& onlyWith);
   DeckSchema& formerly(FormerSections sections);
+  DeckSchema& calledElsewhere(OtherNames names);
 
   [[nodiscard]] const std::vector<DeckKey>& keys() const { return keys_; }
   [[nodiscard]] const FormerSections& formerSections() const { return former_; }
+  [[nodiscard]] const OtherNames& otherNames() const { return otherNames_; }
 
   // The same declarations as a tree, one node for each part of a path, in order of declaration.
   struct Node {
@@ -177,6 +183,7 @@ class DeckSchema {
   std::vector<DeckKey> keys_;
   std::vector<DeckSection> sections_;
   FormerSections former_;
+  OtherNames otherNames_;
 };
 
 // Decks of several kinds, told apart by the choice at one key of the top level ("problem"). The schema of each kind

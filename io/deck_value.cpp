@@ -60,7 +60,7 @@ std::optional<bool> readBoolean(const std::string& text) {
 }
 
 // Reads one scalar; the InputError thrown has only the message.
-void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
+void readScalar(const DeckKey& key, const std::string& text, DeckValue& value, const OtherNames& otherNames) {
   const auto mismatch = [&] {
     DeckKey one = key;
     one.isList = false;
@@ -99,14 +99,15 @@ void readScalar(const DeckKey& key, const std::string& text, DeckValue& value) {
           return;
         }
       }
-      const std::string other = byOtherName(text, key.choices);
+      const std::string other = byOtherName(text, key.choices, otherNames);
       throw InputError(mismatch().what() + (other.empty() ? didYouMean(text, key.choices) : other));
   }
 }
 
 }  // namespace
 
-DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std::string& path, const DeckNode& node) {
+DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std::string& path, const DeckNode& node,
+                        const OtherNames& otherNames) {
   DeckValue value{key, path, false, true, {}, {}, {}};
   const auto scalar = [&](const DeckNode& item, const std::string& itemPath) {
     const bool textOfMap = key.type == KeyType::string && item.kind == DeckNode::Kind::map && !item.text.empty();
@@ -119,7 +120,7 @@ DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std:
                                   key.type == KeyType::string ? asQuotedText(item) : ""));
     }
     try {
-      readScalar(key, item.text, value);
+      readScalar(key, item.text, value, otherNames);
     } catch (const InputError& error) {
       throw deckError(source, item.at, itemPath, error.what());
     }

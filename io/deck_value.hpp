@@ -7,7 +7,9 @@
 namespace lampblack::io {
 
 // Reads `node` as `key`; InputError pointing into `source` where it has another type, dimension, length or range.
-DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std::string& path, const DeckNode& node);
+// `otherNames`: what choices are called elsewhere.
+DeckValue readDeckValue(const DeckSource& source, const DeckKey& key, const std::string& path, const DeckNode& node,
+                        const OtherNames& otherNames = {});
 
 // Reads the default of a key. A default that the key itself refuses is a mistake in the schema: std::logic_error.
 DeckValue defaultDeckValue(const DeckKey& key, const std::string& path);

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "app/deck/other_names.hpp"
 #include "app/problems/aggregates/aggregates_case.hpp"
 #include "app/problems/engine/engine_case.hpp"
 #include "app/problems/flame/flame_case.hpp"
@@ -48,7 +49,10 @@ const std::vector<Problem>& problems() {
 
 DeckKinds deckKinds(const std::vector<Problem>& table) {
   DeckKinds kinds{"problem", {}};
-  for (const Problem& problem : table) kinds.kinds.push_back({problem.name, problem.doc, problem.schema()});
+  for (const Problem& problem : table) {
+    kinds.kinds.push_back({problem.name, problem.doc, problem.schema()});
+    kinds.kinds.back().schema.calledElsewhere(otherNamesOfKeysAndChoices());
+  }
   return kinds;
 }
 

@@ -59,7 +59,8 @@ TEST(DeckErrors, WhatANewcomerWritesIsAnsweredByWhatToWrite) {
       .add(quantityKey("time.end", units::time, "End.").optional())
       .add(integerKey("particles.sectional.sections", "Sections.").optional())
       .add(choiceKey("particles.description", {"sectional"}, "Kind.").optional())
-      .add(choiceKey("methods.*.type", {"dsmc"}, "Kind.").optional());
+      .add(choiceKey("methods.*.type", {"dsmc"}, "Kind.").optional())
+      .calledElsewhere({{"psr", "stirred"}, {"pfr", "plug_flow"}, {"psr", "perfectly_stirred"}, {"T", "temperature"}});
   const auto refused = [&](const std::string& text) { return test::refusalOf(schema, text); };
   EXPECT_THAT(refused("gas: {composition: {H2: 2, O2: 1}}\n"),
               HasSubstr("expected a text, found a map; write it in quotes, \"H2: 2, O2: 1\""));
@@ -73,7 +74,14 @@ TEST(DeckErrors, WhatANewcomerWritesIsAnsweredByWhatToWrite) {
       HasSubstr("this is not YAML: end of map flow not found; a text with ': ' or a comma in it stands in quotes"));
   EXPECT_THAT(refused("gas: {temperature: 300 K}\n\ttime: {end: 1 s}\n"),
               HasSubstr("YAML indents by blanks, no tabulators"));
+  for (const std::string slip : {"time 1 ms", "time:1 ms"})
+    EXPECT_THAT(refused("gas:\n" + slip + "\nwall: {temperature: 300 K}\n"),
+                HasSubstr("'key: value', which the line before lacks: '" + slip + "'"));
+  EXPECT_THAT(refused("gas: {temperature: 300 K}\n  wall: x\n"), Not(HasSubstr("the line before lacks")));
   EXPECT_THAT(refused("reactor: {type: PSR}\n"), HasSubstr("found 'PSR'; did you mean 'stirred'?"));
+  EXPECT_THAT(refused("time: {end: 1,5 ms}\n"), HasSubstr("unknown key '5 ms'; a number has a decimal point, 1.5."));
+  EXPECT_THAT(refused("gas: {T: 300 K}\n"), HasSubstr("unknown key 'T'; did you mean 'temperature'?"));
+  EXPECT_THAT(refused("gas: {t: 300 K}\n"), Not(HasSubstr("; did you mean 'temperature'?")));
   EXPECT_THAT(refused("reactor: {type: pfr}\n"), HasSubstr("did you mean 'plug_flow'?"));
   EXPECT_THAT(refused("time: 1 ms\n"), HasSubstr("expected a map of keys, such as {end: 1 ms}, found '1 ms'"));
   EXPECT_THAT(refused("particles: {sections: 20}\n"), HasSubstr("did you mean 'particles.sectional.sections'?"));
