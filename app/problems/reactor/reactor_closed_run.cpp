@@ -8,9 +8,9 @@
 #include <optional>
 
 #include "app/problems/reactor/reactor_driver.hpp"
-#include "app/problems/reactor/reactor_history.hpp"
 #include "app/problems/reactor/reactor_output.hpp"
 #include "app/problems/reactor/reactor_particle_output.hpp"
+#include "app/problems/reactor/reactor_rows.hpp"
 #include "chemistry/reactor/ignition_sensitivity.hpp"
 #include "chemistry/thermo/thermo.hpp"
 #include "core/stop_request.hpp"
@@ -55,9 +55,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
   ClosedReactorDriver(const ReactorCase& reactorCase, const ClosedKind& closed)
       : case_(reactorCase),
         closed_(closed),
-        particles_(reactorCase, kept(reactorCase, closed)),
-        table_(closedTable(reactorCase, closed)),
-        history_(table_.columns(), particles_.columns()),
+        rows_(reactorCase, kept(reactorCase, closed), closedTable(reactorCase, closed)),
         events_(closed.ignition.size()) {}
 
   void compute(const RunFolder& folder) override {
@@ -70,14 +68,12 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     startTemperature_ = start[case_.mechanism->numSpecies()];
     integrator.start(0.0, start, closed_.duration);
     if (closed_.ignitionFrom == 0) monitor.begin(0.0, start.data());
-    history_.open(folder.history());
-    history_.follow(
-        integrator, case_.output.interval, closed_.duration, [&](double time) { return nextStop(time); },
+    rows_.follow(
+        reactor, integrator, folder, closed_.duration,
         [&](double time, std::span<const double> y) {
-          std::vector<double> row = table_.row(reactor, time, y);
-          particles_.append(reactor.pressure(time, y.data()), reactor.density(time, y.data()), y, row);
-          return row;
+          return ReactorGas{reactor.pressure(time, y.data()), reactor.density(time, y.data())};
         },
+        [&](double time) { return nextStop(time); },
         [&] {
           if (integrator.time() == closed_.ignitionFrom) {
             const std::span<const double> y = integrator.state();
@@ -96,7 +92,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
     endPressure_ = reactor.pressure(integrator.time(), integrator.state().data());
     reached_ = integrator.time();
     seconds_ = MPI_Wtime() - begin;
-    particles_.requireSizeRangeCovered();
+    rows_.particles().requireSizeRangeCovered();
     if (closed_.sensitivities.empty() || reached_ < closed_.duration) return;
     reactor.setParameters(closed_.sensitivities);
     Progress progress(MPI_COMM_SELF, 0, 1, Progress::logInterval);
@@ -115,8 +111,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
   }
 
   void write(ResultsWriter& results) const override {
-    history_.writeTo(results);
-    particles_.write(results);
+    rows_.writeTo(results);
     writeIgnition(results, *case_.mechanism, closed_, events_);
     // Rank 0 alone knows how far it came; what it has not computed is NaN.
     if (!closed_.sensitivities.empty())
@@ -140,7 +135,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
           .field("compressed_temperature_K", compressed_->temperature)
           .field("compressed_pressure_Pa", compressed_->pressure);
     json.field("final_temperature_K", endTemperature_).field("final_pressure_Pa", endPressure_);
-    particles_.record(json);
+    rows_.particles().record(json);
     json.field("rate_evaluations", static_cast<std::int64_t>(statistics_.rateEvaluations));
     json.field("jacobian_evaluations", static_cast<std::int64_t>(statistics_.jacobianEvaluations));
   }
@@ -165,7 +160,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
       fmt::print("note: the temperature changed by {:.2g} K only; this gas has not ignited\n",
                  endTemperature_ - startTemperature_);
     fmt::print("T = {:.4f} K, p = {:.6g} Pa after {:g} s\n", endTemperature_, endPressure_, closed_.duration);
-    particles_.print();
+    rows_.particles().print();
     fmt::print("{} steps, {} rate and {} Jacobian evaluations of the integrator in {}\n", statistics_.steps,
                statistics_.rateEvaluations, statistics_.jacobianEvaluations, formatDuration(seconds_));
     if (!closed_.sensitivities.empty()) printSensitivities();
@@ -221,9 +216,7 @@ class ClosedReactorDriver : public ReactorOfOneRank {
   const ReactorCase& case_;
   const ClosedKind& closed_;
   std::optional<Compressed> compressed_;  // where delays count from the end of a compression
-  ReactorParticleOutput particles_;
-  StateTable<ClosedReactor> table_;
-  ReactorHistory history_;
+  ReactorRows<ClosedReactor> rows_;
   std::vector<std::optional<IgnitionEvent>> events_;
   IgnitionSensitivities sensitivities_;
   StiffIntegrator::Statistics statistics_;

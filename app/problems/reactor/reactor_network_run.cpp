@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "app/problems/reactor/reactor_driver.hpp"
-#include "app/problems/reactor/reactor_history.hpp"
 #include "app/problems/reactor/reactor_output.hpp"
 #include "app/problems/reactor/reactor_particle_output.hpp"
+#include "app/problems/reactor/reactor_rows.hpp"
 #include "core/errors.hpp"
 #include "io/csv.hpp"
 #include "io/report.hpp"
@@ -34,9 +34,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
   StirredTransientDriver(const ReactorCase& reactorCase, const StirredKind& stirred)
       : case_(reactorCase),
         stirred_(stirred),
-        particles_(reactorCase, ReactorParticleOutput::Kept::nothing),
-        table_(stirredTable(reactorCase)),
-        history_(table_.columns(), particles_.columns()) {}
+        rows_(reactorCase, ReactorParticleOutput::Kept::nothing, stirredTable(reactorCase)) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
@@ -44,34 +42,24 @@ class StirredTransientDriver : public ReactorOfOneRank {
     StiffIntegrator integrator(system, case_.integrator);
     integrator.start(0.0, startUnknowns(*case_.mechanism, stirred_.vessels, stirred_.start, system.numCarried()),
                      stirred_.duration);
-    history_.open(folder.history());
-    const std::size_t n = case_.mechanism->numSpecies();
-    history_.follow(
-        integrator, case_.output.interval, stirred_.duration, {},
-        [&](double time, std::span<const double> y) {
-          std::vector<double> row = table_.row(system, time, y);
-          particles_.append(stirred_.vessels.pressure, system.density(y.data()), y, row);
-          return row;
-        },
-        [] {});
+    rows_.follow(system, integrator, folder, stirred_.duration, [&](double, std::span<const double> y) {
+      return ReactorGas{stirred_.vessels.pressure, system.density(y.data())};
+    });
     steps_ = integrator.statistics().steps;
     reached_ = integrator.time();
-    temperature_ = integrator.state()[n];
+    temperature_ = integrator.state()[case_.mechanism->numSpecies()];
     seconds_ = MPI_Wtime() - begin;
-    particles_.requireSizeRangeCovered();
+    rows_.particles().requireSizeRangeCovered();
   }
 
-  void write(ResultsWriter& results) const override {
-    history_.writeTo(results);
-    particles_.write(results);
-  }
+  void write(ResultsWriter& results) const override { rows_.writeTo(results); }
   void record(JsonWriter& json) const override {
     json.field("final_temperature_K", temperature_);
-    particles_.record(json);
+    rows_.particles().record(json);
   }
   void print() const override {
     fmt::print("T = {:.4f} K after {:g} s\n", temperature_, stirred_.duration);
-    particles_.print();
+    rows_.particles().print();
     fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
   }
   long steps() const override { return steps_; }
@@ -80,9 +68,7 @@ class StirredTransientDriver : public ReactorOfOneRank {
  private:
   const ReactorCase& case_;
   const StirredKind& stirred_;
-  ReactorParticleOutput particles_;
-  StateTable<NetworkSystem> table_;
-  ReactorHistory history_;
+  ReactorRows<NetworkSystem> rows_;
   long steps_ = 0;
   double reached_ = 0;  // s
   double temperature_ = 0, seconds_ = 0;

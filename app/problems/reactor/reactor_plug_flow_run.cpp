@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "app/problems/reactor/reactor_driver.hpp"
-#include "app/problems/reactor/reactor_history.hpp"
 #include "app/problems/reactor/reactor_output.hpp"
 #include "app/problems/reactor/reactor_particle_output.hpp"
+#include "app/problems/reactor/reactor_rows.hpp"
 #include "app/problems/reactor/reactor_upstream.hpp"
 #include "chemistry/reactor/plug_flow.hpp"
 #include "io/report.hpp"
@@ -33,10 +33,9 @@ class PlugFlowDriver : public ReactorOfOneRank {
   PlugFlowDriver(const ReactorCase& reactorCase, const PlugFlowKind& duct)
       : case_(reactorCase),
         duct_(duct),
-        particles_(reactorCase,
-                   reactorCase.profile ? ReactorParticleOutput::Kept::elements : ReactorParticleOutput::Kept::enthalpy),
-        table_(plugFlowTable(reactorCase)),
-        history_(table_.columns(), particles_.columns()) {}
+        rows_(reactorCase,
+              reactorCase.profile ? ReactorParticleOutput::Kept::elements : ReactorParticleOutput::Kept::enthalpy,
+              plugFlowTable(reactorCase)) {}
 
   void compute(const RunFolder& folder) override {
     const double begin = MPI_Wtime();
@@ -45,30 +44,23 @@ class PlugFlowDriver : public ReactorOfOneRank {
     PlugFlow flow(*case_.mechanism, inlet, duct_.massFlux, duct_.length, case_.profile, case_.particles.get());
     StiffIntegrator integrator(flow, case_.integrator);
     integrator.start(0.0, flow.initialState(), duct_.length);
-    history_.open(folder.history());
-    const std::size_t n = case_.mechanism->numSpecies();
     std::function<double(double)> nextStop;
     if (case_.profile) nextStop = [&](double z) { return case_.profile->nextKink(z).value_or(duct_.length); };
-    history_.follow(
-        integrator, case_.output.interval, duct_.length, nextStop,
-        [&](double z, std::span<const double> y) {
-          std::vector<double> row = table_.row(flow, z, y);
-          particles_.append(duct_.inlet.pressure, flow.density(y.data()), y, row);
-          return row;
+    rows_.follow(
+        flow, integrator, folder, duct_.length,
+        [&](double, std::span<const double> y) {
+          return ReactorGas{duct_.inlet.pressure, flow.density(y.data())};
         },
-        [] {});
+        nextStop);
     steps_ = integrator.statistics().steps;
-    temperature_ = integrator.state()[n];
+    temperature_ = integrator.state()[case_.mechanism->numSpecies()];
     velocity_ = flow.velocity(integrator.state().data());
     time_ = flow.residenceTime(integrator.state().data());
     seconds_ = MPI_Wtime() - begin;
-    particles_.requireSizeRangeCovered();
+    rows_.particles().requireSizeRangeCovered();
   }
 
-  void write(ResultsWriter& results) const override {
-    history_.writeTo(results);
-    particles_.write(results);
-  }
+  void write(ResultsWriter& results) const override { rows_.writeTo(results); }
 
   void record(JsonWriter& json) const override {
     json.field("final_temperature_K", temperature_).field("final_velocity_m_per_s", velocity_);
@@ -79,13 +71,13 @@ class PlugFlowDriver : public ReactorOfOneRank {
       recordOut(json, *upstream_);
       json.endObject();
     }
-    particles_.record(json);
+    rows_.particles().record(json);
   }
 
   void print() const override {
     fmt::print("T = {:.4f} K, u = {:.6g} m/s at z = {:g} m, {:.6e} s after the inlet\n", temperature_, velocity_,
                duct_.length, time_);
-    particles_.print();
+    rows_.particles().print();
     if (upstream_) fmt::print("{}", outLine("upstream", *upstream_));
     fmt::print("{} steps of the integrator in {}\n", steps_, formatDuration(seconds_));
   }
@@ -96,9 +88,7 @@ class PlugFlowDriver : public ReactorOfOneRank {
  private:
   const ReactorCase& case_;
   const PlugFlowKind& duct_;
-  ReactorParticleOutput particles_;
-  StateTable<PlugFlow> table_;
-  ReactorHistory history_;
+  ReactorRows<PlugFlow> rows_;
   std::optional<ReactorSteadyState> upstream_;
   long steps_ = 0;
   double temperature_ = 0, velocity_ = 0, time_ = 0, seconds_ = 0;
