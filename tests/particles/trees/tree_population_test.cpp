@@ -57,6 +57,31 @@ TEST_P(BooksOfTrees, BookEveryUnit) {
   EXPECT_NEAR(all.units[2] / (4 * precursor - 2 * product), 1, 1e-11);
 }
 
+// Primaries are born and become one with others, also where nothing sinters: small ones that large ones touch, and
+// neighbours that grow over their neck. Spheres in space touch at points, and hardly grow over these.
+TEST_P(BooksOfTrees, CountEveryPrimary) {
+  if (GetParam() == TreeShape::surfaceVolume) GTEST_SKIP() << "these have one each";
+  for (const bool sinters : {true, false}) {
+    if (!sinters && GetParam() == TreeShape::spheres) continue;
+    Nitrogen nitrogen;
+    nitrogen.concentrations = {2e-6, 1e-6};
+    TreeOptions options;
+    options.shape = GetParam();
+    options.material = silica();
+    if (!sinters) options.material.sintering.mechanism = SinteringMechanism::none;
+    options.particles = 4096;
+    options.fullAt = 1e19;
+    const auto trees = std::make_unique<TreePopulation>(options);
+    for (int i = 0; i < 40; ++i) trees->advance(nitrogen.gas(), 5e-4);
+    const TreeCounters counted = trees->counters();
+    ASSERT_EQ(counted.removals + counted.doublings, 0U);
+    ASSERT_GT(counted.fused, 10U);
+    const TreeTotals totals = trees->totals();
+    const double primaries = totals.primaries / totals.number * static_cast<double>(trees->size());
+    EXPECT_NEAR(primaries + static_cast<double>(counted.fused), static_cast<double>(counted.inceptions), 1e-6);
+  }
+}
+
 std::unique_ptr<TreePopulation> populated(const Nitrogen& nitrogen, const TreeOptions& options) {
   auto trees = std::make_unique<TreePopulation>(options);
   for (int i = 0; i < 10; ++i) trees->advance(nitrogen.gas(), 2e-3);
