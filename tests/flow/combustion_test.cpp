@@ -267,6 +267,32 @@ TEST_F(Mixed, FineStructuresTakeLongIntervalsInParts) {
   EXPECT_THROW(reactor->advance({&cell, 1}, 1.0, results), FailureInGroup);  // half a million of them
 }
 
+// The next interval begins with the step that the last one ended with, of the time of the structures: without more
+// steps than without one.
+TEST_F(Mixed, FineStructuresGoOnWithTheirStep) {
+  const double fineTime = 1e-8;
+  const std::vector<double> source(n, 0.0);
+  const auto reactor = fineCells();
+  std::vector<CellReactor::Result> results(1);
+  const auto advance = [&](double firstStep) {
+    std::vector<double> Y = burning;
+    CellReactor::Cell cell{{}, Y, source};
+    cell.gas.temperature = 1700.0;
+    cell.gas.pressure = 101325.0;
+    cell.gas.enthalpy = gas.thermo.enthalpyMass(1700.0, Y);
+    cell.gas.firstStep = firstStep;
+    cell.gas.mixing = {0.5, fineTime};
+    reactor->advance({&cell, 1}, 0.1 * fineTime, results);
+    return results[0];
+  };
+  const CellReactor::Result anew = advance(0.0), again = advance(anew.firstStep);
+  EXPECT_GT(anew.firstStep, 1e-3 * fineTime);
+  EXPECT_LT(anew.firstStep, 10.0 * fineTime);
+  EXPECT_LE(again.steps, anew.steps);
+  EXPECT_EQ(anew.isHandedOver, 0.0);
+  EXPECT_EQ(again.isHandedOver, 0.0) << "a step too short for the quick method";
+}
+
 // Cells that go together with their neighbours take their shares along.
 TEST_F(Mixed, CoupledCellsReactAtTheirShares) {
   CoupledCells cells(n);
