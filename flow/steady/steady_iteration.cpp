@@ -1,15 +1,11 @@
 #include "flow/steady/steady_iteration.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
 #include "core/errors.hpp"
 #include "flow/cell_errors.hpp"
-#include "flow/stepping/time_step.hpp"
 
 namespace lampblack::flow {
 namespace {
@@ -30,18 +26,10 @@ constexpr int carriedPasses = 3;
 constexpr double carriedShare = 0.3;
 constexpr double mostCarriedCourant = 1.0, mostSweptCourant = 1e3;
 constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
-// Of Newton's linear systems; of their pseudo-time, which goes on growing with each step that is taken, as thin cells
-// would hold the flow in a short one; of what there was, what a step may leave at the longest: after more iterations of
-// the other kind follow, each time twice as many.
-constexpr double newtonReduction = 0.01;
-constexpr double leastNewtonGrowth = 4.0, mostNewtonGrowth = 10.0, mostNewtonCourant = 1e9;
-constexpr int mostPause = 1000;
-constexpr double enoughOfNewton = 0.5;
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 constexpr double growthAfterFailure = 1.2;
 constexpr int mostOfGasAlone = 2;  // iterations after steps of one time, or Newton's, where the flow rests
-constexpr int mostShorter = 6;     // implicit steps in one iteration, each shorter than that before
 // Of the Courant number, at least, where no cell was limited and no more is left than before: in thin cells the
 // residual falls as slowly as a small one lets it, and would hold it where it is.
 constexpr double quietGrowth = 1.1;
@@ -119,40 +107,6 @@ void SteadyIteration::setInertia(const State& state) {
   for (double& value : flowInertia_) value /= flowCourant();
 }
 
-std::vector<double> SteadyIteration::unknownsOf(const State& state) const {
-  std::vector<double> all;
-  for (const std::vector<double>* field :
-       {&state.Y, &state.temperature, &state.velocity, &state.swirl, &state.pressure, &state.massFlux})
-    all.insert(all.end(), field->begin(), field->end());
-  return all;
-}
-
-// Over the squares of the fields' ranges, a cell as its volume.
-std::vector<double> SteadyIteration::weights(const State& state) const {
-  const Mesh& m = context_.mesh;
-  std::vector<double> all;
-  const auto add = [&](std::span<const double> values, std::size_t components) {
-    if (values.empty()) return;
-    std::array<double, 2> ends{-1e300, -1e300};
-    for (std::size_t i = 0; i < static_cast<std::size_t>(m.owned) * components; ++i)
-      ends = {std::max(ends[0], values[i]), std::max(ends[1], -values[i])};
-    MPI_Allreduce(MPI_IN_PLACE, ends.data(), 2, MPI_DOUBLE, MPI_MAX, m.comm);
-    const double range = ends[0] + ends[1];
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const std::size_t cell = i / components;
-      all.push_back(cell < static_cast<std::size_t>(m.owned) && range > 0.0 ? m.volume[cell] / (range * range) : 0.0);
-    }
-  };
-  const auto n = static_cast<std::size_t>(state.species), d = static_cast<std::size_t>(state.dimension);
-  add(state.Y, n);
-  add(state.temperature, 1);
-  add(state.velocity, d);
-  add(state.swirl, 1);
-  add(state.pressure, 1);
-  all.insert(all.end(), state.massFlux.size(), 0.0);  // follow from velocities and pressure
-  return all;
-}
-
 double SteadyIteration::massOf(const State& state) const {
   double mass = 0.0;
   for (int c = 0; c < context_.mesh.owned; ++c) mass += context_.mesh.volume[c] * state.density[c];
@@ -167,27 +121,6 @@ void SteadyIteration::keepMass(State& state, double mass) const {
   state.thermodynamicPressure *= ratio;
   for (double& density : state.density) density *= ratio;
   for (double& carried : state.carried) carried *= ratio;
-}
-
-void SteadyIteration::accelerate(State& state) {
-  std::vector<double> before = unknownsOf(*before_), found = unknownsOf(state), squares = weights(state);
-  if (control_) {
-    before.push_back(loadBefore_);
-    found.push_back(control_->load());
-    squares.push_back(0.0);  // follows from the temperatures
-  }
-  mixing_.mix(before, found, squares);
-  if (control_) control_->setLoad(state, found.back());
-  auto from = found.cbegin();
-  for (std::vector<double>* field :
-       {&state.Y, &state.temperature, &state.velocity, &state.swirl, &state.pressure, &state.massFlux}) {
-    std::copy_n(from, field->size(), field->begin());
-    from += static_cast<std::ptrdiff_t>(field->size());
-  }
-  inEachCell(context_.mesh, [&](int cell) { followGas(context_, state, cell); });
-  keepMass(state, massOf(*before_));
-  for (Operator* op : operators_) op->setDiffusivities(state);
-  state.updateHalo(context_.halo);
 }
 
 // By what the cells took of their last change.
@@ -261,92 +194,6 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayCombine)
   courant_ *= std::clamp(last / measure_, least, mostGrowth);
   courant_ = std::min(courant_, options_.mostCourant);
   return outcome;
-}
-
-SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
-  Outcome outcome;
-  outcome.courant = courant_;
-  double last = measure_;
-  NewtonKrylov::Result step;
-  try {
-    if (!state.eddyViscosity.empty()) {
-      // Viscosities of the molecules have followed the last iteration: what is left is that of what they are now, as it
-      // is of the states beside this one.
-      for (Operator* op : operators_) op->setDiffusivities(state);
-      state.updateHalo(context_.halo);
-      residual_.evaluate(state);
-      last = measure(state);
-    }
-    setInertia(state);
-    step = newton_->advance(state, inertia_, newtonReduction);
-    keepMass(state, massOf(*before_));
-    outcome.newtonIterations = step.iterations;
-    outcome.largestRise = step.largestRise;
-    outcome.limited = step.limited;
-    for (Operator* op : operators_) op->setDiffusivities(state);
-    state.updateHalo(context_.halo);
-    if (carried_ && state.eddyViscosity.empty()) advanceCarried(state);
-    residual_.evaluate(state);
-    measure_ = outcome.measure = measure(state);
-  } catch (const NumericsError& error) {
-    outcome.why = error.what();
-    return outcome;
-  }
-  if (!(measure_ <= last) || step.limited > 0) return outcome;
-  hurry();
-  if (measure_ <= enoughOfNewton * last)
-    pause_ = leastPause;
-  else if (courant_ >= mostNewtonCourant)
-    waitForNewton();
-  outcome.taken = true;
-  isAnew_ = false;
-  mixing_.clear();
-  courant_ = std::min(courant_ * std::clamp(last / measure_, leastNewtonGrowth, mostNewtonGrowth), mostNewtonCourant);
-  return outcome;
-}
-
-SteadyIteration::Outcome SteadyIteration::stepInTime(State& state) {
-  Outcome outcome;
-  outcome.courant = courant_;
-  double tried = 0.0;  // s
-  try {
-    const ImplicitStep::Result step = step_->advance(state, haste_);
-    tried = step.time;
-    outcome.newtonIterations = step.vectors;
-    outcome.largestRise = step.largestRise;
-    outcome.limited = step.limited;
-    outcome.taken = step.taken;
-    if (step.taken) measure_ = outcome.measure = measure(state);
-  } catch (const NumericsError& error) {
-    outcome.why = error.what();
-    step_->shorten();
-    return outcome;
-  }
-  hurry();
-  if (!outcome.taken) outcome.why = fmt::format("Newton's method leads nowhere in a step of {:.2g} s", tried);
-  return outcome;
-}
-
-SteadyIteration::Outcome SteadyIteration::attemptInTime(State& state) {
-  const double last = measure_;
-  Outcome outcome;
-  for (int tries = 0; tries < mostShorter; ++tries) {
-    outcome = stepInTime(state);
-    if (outcome.taken) break;
-    takeBack(state, last);
-    outcome.measure = last;
-  }
-  // Newton's method goes on with no less time in any cell.
-  if (outcome.taken) courant_ = step_->time() / convectiveTimeStep(context_.mesh, state, 1.0);
-  isLimited_ = !outcome.taken || outcome.limited > 0;
-  isAnew_ = !outcome.taken;
-  mixing_.clear();
-  return outcome;
-}
-
-void SteadyIteration::waitForNewton() {
-  waits_ = pause_;
-  if (!step_) pause_ = std::min(2 * pause_, mostPause);
 }
 
 void SteadyIteration::takeBack(State& state, double measure) {
