@@ -385,6 +385,23 @@ TEST_F(SteadyIterations, AreCombinedOnlyWhereTheyMay) {
   EXPECT_NE(after(1e9, true), plain);
 }
 
+// Newton's method where it may be used, also where combinations may not.
+TEST_F(SteadyIterations, AreNewtonsOnlyWhereTheyMay) {
+  const auto vectors = [&](bool combined, bool newtons) {
+    Box b = channel(lean, 300.0, 0.8);
+    State state = b.state([&](const auto&) { return Box::Local{{0.0, 0.5}, 320.0, lean}; });
+    TransportOperator transport(b.context, state);
+    transport.initialise(state, 1e-4);
+    SteadyIteration iteration(b.context, state, {.accelerated = 1e9}, {&transport});
+    int found = 0;
+    for (int i = 0; i < 4; ++i)
+      found += iteration.iterate(state, {.combined = combined, .newtons = newtons}).newtonIterations;
+    return found;
+  };
+  EXPECT_GT(vectors(false, true), 0);
+  EXPECT_EQ(vectors(true, false), 0);
+}
+
 // The flame that iterations find is one that steps leave as it is; on one rank it is the same.
 TEST_F(SteadyIterations, FindAFlame) {
   const auto find = [&](MPI_Comm comm, auto look) {
