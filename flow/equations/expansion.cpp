@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "core/constants.hpp"
 #include "flow/discretisation/face_fluxes.hpp"
@@ -92,8 +93,10 @@ void Expansion::begin(const State& state, const GasProperties& properties, bool 
     // What a steady state needs goes on all the time: it is in proportion to the step.
     if (lastStep > 0.0)
       correction_[c] = (correction_[c] + share * ((gained_[c] - balance_[c]) * lastStep + drift_[c])) * (dt / lastStep);
-    const double before = lastStep > 0.0 ? lastDrift_[c] : drift_[c];
-    divergence_[c] = balance_[c] + (correction_[c] + 0.5 * (drift_[c] + before)) / dt;
+    double left = drift_[c];
+    const double before = lastStep > 0.0 ? lastDrift_[c] : 0.0;
+    if (left * before < 0.0) left = std::copysign(std::max(std::abs(left) - std::abs(before), 0.0), left);
+    divergence_[c] = balance_[c] + (correction_[c] + left) / dt;
   }
   lastDrift_ = drift_;
 }
