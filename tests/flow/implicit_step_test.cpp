@@ -130,25 +130,7 @@ TEST(ImplicitSteps, AreShorterWhereCellsAreSlow) {
   EXPECT_LT(changes[1], 0.1 * changes[0]);
 }
 
-// A long step that the limits of a cell's change let come to its end in several passes is taken.
-TEST(ImplicitSteps, AreTakenWhereSeveralPassesLeadToTheirEnd) {
-  Stepped channel;
-  Box& b = *channel.box;
-  State& state = *channel.state;
-  ImplicitStep step(b.context, state, channel.residual, channel.gas, channel.carried, channel.operators);
-  const std::vector<double> even(at(b.mesh.owned), 1.0);
-  for (int i = 0; i < 16; ++i) EXPECT_TRUE(step.advance(state, even).taken);
-  for (int c = 0; c < b.mesh.owned; ++c) {
-    state.temperature[at(c)] += 700.0;
-    followGas(b.context, state, c);
-  }
-  state.updateHalo(b.halo);
-  const ImplicitStep::Result result = step.advance(state, even);
-  EXPECT_GT(result.largestRise, 500.0);
-  EXPECT_TRUE(result.taken);
-}
-
-// One that they hold far from its end is not taken, and the next is shorter.
+// A long step that the limits of a cell's change hold far from its end is not taken, and the next is shorter.
 TEST(ImplicitSteps, AreRefusedWhereTheyLeadNowhere) {
   Stepped channel;
   Box& b = *channel.box;
@@ -183,7 +165,7 @@ TEST(ImplicitSteps, AreRefusedWhereFewCellsAreHeldFarFromTheirEnd) {
     for (int c = 0; c < b.mesh.owned; ++c) {
       const auto& x = b.mesh.centre[c];
       state.velocity[at(2 * c + 1)] *= 1.0 + 0.5 * std::sin(3000.0 * x[1]);
-      if (isHot && std::abs(x[1] - 0.01) < 0.0013 && x[0] < 0.0013) state.temperature[at(c)] += 2700.0;
+      if (isHot && std::abs(x[1] - 0.01) < 0.0013 && x[0] < 0.0013) state.temperature[at(c)] += 2000.0;
       followGas(b.context, state, c);
     }
     state.updateHalo(b.halo);
