@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "flow/stepping/time_step.hpp"
@@ -26,6 +27,13 @@ constexpr int carriedPassesInTime = 2;
 constexpr double mostOfResidence = 0.05, mostOfShortest = 10.0;
 
 }  // namespace
+
+bool NewtonPasses::goOn(double left) {
+  ++done_;
+  idle_ = left <= progress * least_ ? 0 : idle_ + 1;
+  least_ = std::min(least_, left);
+  return left > enough && done_ < mostNewtonPasses && idle_ < mostIdlePasses;
+}
 
 ImplicitStep::ImplicitStep(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
                            CarriedUpdate& carried, std::vector<Operator*> operators)
@@ -70,21 +78,18 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   const State start = state;
   Result result;
   result.time = time_;
-  NewtonKrylov::Left before;
-  double left = 0.0, least = INFINITY;
-  int idle = 0;
-  for (int pass = 0; pass < mostNewtonPasses && idle < mostIdlePasses; ++pass) {
+  std::optional<NewtonKrylov::Left> before;  // the first pass
+  double left = 0.0;
+  NewtonPasses passes;
+  do {
     const NewtonKrylov::Result step = newton_.advance(state, inertia_, linearReduction, &start);
-    if (pass == 0) before = step.before;
+    if (!before) before = step.before;
     result.vectors += step.iterations;
     result.largestRise = std::max(result.largestRise, step.largestRise);
     result.limited = step.limited;
     residual_.evaluate(state);
-    left = shareLeft(newton_.leftInTime(state, start), before, step.limited > 0);
-    if (left <= enough) break;
-    idle = left <= progress * least ? 0 : idle + 1;
-    least = std::min(least, left);
-  }
+    left = shareLeft(newton_.leftInTime(state, start), *before, step.limited > 0);
+  } while (passes.goOn(left));
   result.taken = left <= mostLeftInTime;
   if (!result.taken) {
     shorten();

@@ -24,6 +24,18 @@
 
 namespace lampblack::flow {
 
+// Whether Newton's method goes on in a step: until enough of the step's equations is done, all of its passes are, or
+// two in a row have gained too little.
+class NewtonPasses {
+ public:
+  // After a pass; `left`: what it has left, of what there was before the first.
+  [[nodiscard]] bool goOn(double left);
+
+ private:
+  int done_ = 0, idle_ = 0;
+  double least_ = INFINITY;
+};
+
 class ImplicitStep {
  public:
   // Collective. All have to live as long.

@@ -152,6 +152,25 @@ TEST(ImplicitSteps, AreRefusedWhereTheyLeadNowhere) {
   EXPECT_FALSE(result.taken);
 }
 
+// Newton's method goes on in a step while it gains, twelve times, and ends after two passes that gain less than a
+// tenth.
+TEST(ImplicitSteps, HavePassesWhileTheyGain) {
+  const auto passesOf = [](double first, double share) {
+    NewtonPasses passes;
+    int count = 1;
+    for (double left = first; passes.goOn(left); left *= share) ++count;
+    return count;
+  };
+  EXPECT_EQ(passesOf(0.1, 0.5), 1);
+  EXPECT_EQ(passesOf(8.0, 0.85), 12);
+  EXPECT_EQ(passesOf(8.0, 0.95), 3);
+  EXPECT_EQ(passesOf(8.0, 1.2), 3);
+  EXPECT_EQ(passesOf(2.0, 0.5), 5);
+  NewtonPasses passes;
+  for (const double left : {2.0, 2.1, 1.0, 1.1}) EXPECT_TRUE(passes.goOn(left));
+  EXPECT_FALSE(passes.goOn(0.95));
+}
+
 // Cells that the limits hold count as the worst of them does, however much less is left of all others.
 TEST(ImplicitSteps, AreRefusedWhereFewCellsAreHeldFarFromTheirEnd) {
   for (const bool isHot : {false, true}) {
