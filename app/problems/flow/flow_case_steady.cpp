@@ -110,13 +110,15 @@ DeckKeys<TimeControl::Search> searchKeys() {
       "that was just lit or whose end still moves, as iterations in pseudo-times of the cells' own run away "
       "from it. false: iterations in pseudo-times from the first on, by which a flame that stands beside slow "
       "air is found sooner.");
-  keys.integer("coarser_meshes", &Search::coarserMeshes, rules().optional().atLeast(0).atMost(mostCoarserMeshes),
-               fmt::format("Number of coarser meshes, each of half the cells of the next in every direction (of a "
-                           "plane box), on which the steady state is sought first: what is found on one is the start "
-                           "on the next. A run that is stopped on one of them begins anew. Absent: as many as lead to "
-                           "no more than {} cells where the mechanism has reactions and the start is the deck's own, "
-                           "none with turbulence.",
-                           mostCellsAlone));
+  keys.integer(
+      "coarser_meshes", &Search::coarserMeshes, rules().optional().atLeast(0).atMost(mostCoarserMeshes),
+      fmt::format(
+          "Number of coarser meshes, each of half the cells of the next in every direction (of a "
+          "plane box, bent or not), on which the steady state is sought first: what is found on one is the start "
+          "on the next. A run that is stopped on one of them begins anew. Absent: as many as lead to "
+          "no more than {} cells where the mechanism has reactions and the start is the deck's own, "
+          "none with turbulence.",
+          mostCellsAlone));
   return keys;
 }
 
@@ -174,9 +176,9 @@ std::optional<SteadyControl> readSteady(const Deck& deck, const FlowCase& flowCa
 
 namespace {
 
-// Meshes of plane boxes can be made coarser.
+// Meshes of plane boxes, bent or not, can be made coarser.
 bool isPlaneBox(const FlowCase& flowCase) {
-  return !flowCase.meshFile && !flowCase.mesh.map && flowCase.dimension == 2;
+  return !flowCase.meshFile && flowCase.dimension == 2;
 }
 
 void requireOneTime(const Deck& deck, TimeControl::Search& search, const FlowCase& flowCase) {
@@ -222,8 +224,7 @@ TimeControl::Search readSearch(const Deck& deck, const FlowCase& flowCase) {
   search.triesWithoutFlame = deck.isGiven("time.steady.attempts");
   if (search.coarserMeshes > 0 && !isPlaneBox(flowCase))
     throw deck.error("time.steady.coarser_meshes",
-                     "coarser meshes are made of plane boxes only, without a floor or a ceiling of their own; leave "
-                     "this out");
+                     "coarser meshes are made of plane boxes only, bent or not; leave this out");
   search.time = deck.optionalQuantity("time.steady.time");
   if (deck.has(stabilitySection)) search.stability = stabilityKeys().read(deck);
   search.branch = readBranch(deck, search, flowCase);

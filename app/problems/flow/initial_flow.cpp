@@ -11,6 +11,7 @@
 #include <string>
 #include <utility>
 
+#include "app/problems/flow/box_places.hpp"
 #include "app/problems/flow/flow_case.hpp"
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
@@ -44,23 +45,59 @@ std::vector<double> component(const std::vector<double>& values, std::size_t com
   return of;
 }
 
-void requireSameGeometry(const Hdf5Reader& results, const Deck& earlier, Geometry geometry) {
-  for (const char* key : {"mesh.file", "mesh.floor", "mesh.ceiling"})
-    if (earlier.has(key))
-      throw InputError(fmt::format("{} is of a mesh with '{}'; expected a plane box", results.name(), key));
+void requireSameGeometry(const Hdf5Reader& results, const Deck& earlier, const MeshSpec& mesh) {
+  if (earlier.has("mesh.file"))
+    throw InputError(fmt::format("{} is of a mesh with 'mesh.file'; expected a plane box", results.name()));
   if (earlier.choice("mesh.geometry") == "space")
     throw InputError(fmt::format("{} is three-dimensional; expected a plane box", results.name()));
+  const bool wasBent = earlier.has("mesh.floor") || earlier.has("mesh.ceiling"), isBent = static_cast<bool>(mesh.map);
+  if (wasBent != isBent)
+    throw InputError(fmt::format("{} is of a box {} a floor or a ceiling of its own; expected one {}", results.name(),
+                                 wasBent ? "with" : "without", isBent ? "as this mesh has" : "without, as this mesh"));
+  const Geometry geometry = mesh.geometry;
   const bool wasAxisymmetric = earlier.choice("mesh.geometry") == "axisymmetric";
   if (wasAxisymmetric != (geometry == Geometry::Axisymmetric))
     throw InputError(fmt::format("{} is of {} geometry; expected that of this mesh", results.name(),
                                  wasAxisymmetric ? "axisymmetric" : "planar"));
 }
 
-// Rounding of a length apart.
+// Of two meshes of one bent box floors and ceilings meet but for what is bent between the columns of the coarser: a
+// share of what they rise and fall by.
+constexpr double mostApart = 0.1;
+
+// The places of the earlier run's cells, and, of a bent box, how those of this mesh are told on it.
+struct EarlierPlaces {
+  std::vector<std::vector<double>> cells;  // of each coordinate
+  std::optional<BoxPlaces> box;            // of this mesh, where it is bent
+};
+
+EarlierPlaces placesOf(const Hdf5Reader& results, const MeshSpec& mesh) {
+  const std::vector<double> centres = results.numbers("/mesh/cellCentre");
+  EarlierPlaces places{.cells = {component(centres, 3, 0), component(centres, 3, 1)}, .box = std::nullopt};
+  if (!mesh.map) return places;
+  const BoxPlaces earlier(results.numbers("/mesh/vertices"));
+  places.box.emplace(mesh);
+  const double apart = std::max(earlier.apart(*places.box), places.box->apart(earlier));
+  const double most = mostApart * places.box->rise();
+  if (apart > most)
+    throw InputError(
+        fmt::format("{} has another floor or ceiling than this mesh: {:.3g} m apart, expected {:.3g} m at "
+                    "most",
+                    results.name(), apart, most));
+  for (std::size_t c = 0; c < places.cells[0].size(); ++c) {
+    const auto [along, share] = earlier.middle(places.cells[0][c], places.cells[1][c]);
+    places.cells[0][c] = along;
+    places.cells[1][c] = share;
+  }
+  return places;
+}
+
+// Rounding of a length apart; of a bent box along its columns.
 void requireCover(const Hdf5Reader& results, const MeshSpec& mesh) {
   const std::vector<double> vertices = results.numbers("/mesh/vertices");
   const AxisNames names = axisNames(mesh.geometry, mesh.dimension());
-  for (std::size_t axis = 0; axis < 2; ++axis) {
+  const std::size_t axes = mesh.map ? 1 : 2;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
     const std::vector<double> of = component(vertices, 3, axis);
     const auto [first, last] = std::ranges::minmax(of);
     const double slack = 1e-9 * (last - first);
@@ -237,11 +274,11 @@ void addInitialFlowKeys(DeckSchema& schema) {
 }
 
 InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase) {
-  if (flowCase.meshFile || flowCase.mesh.map || flowCase.dimension != 2)
-    throw InputError("an earlier run is laid over plane boxes only, without a floor or a ceiling of their own");
+  if (flowCase.meshFile || flowCase.dimension != 2)
+    throw InputError("an earlier run is laid over plane boxes only, bent or not");
   const Hdf5Reader results(file);
   const Deck earlier = Deck::parse(results.textAttribute("/", "deck"), results.name(), {}, flowSchema());
-  requireSameGeometry(results, earlier, flowCase.mesh.geometry);
+  requireSameGeometry(results, earlier, flowCase.mesh);
   requireCover(results, flowCase.mesh);
   const std::string step = stepOf(results, time);
   InitialFields fields;
@@ -257,18 +294,18 @@ InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<d
   const bool swirls = results.has(step + "/" + swirl);
   if (swirls) numbers.columns.push_back(results.numbers(step + "/" + swirl));
   const std::vector<double> velocity = results.numbers(step + "/velocity");
-  const std::vector<double> centres = results.numbers("/mesh/cellCentre");
-  for (std::size_t axis = 0; axis < 2; ++axis) {
-    numbers.columns.push_back(component(velocity, 3, axis));
-    numbers.places.push_back(component(centres, 3, axis));
-  }
+  for (std::size_t axis = 0; axis < 2; ++axis) numbers.columns.push_back(component(velocity, 3, axis));
+  EarlierPlaces places = placesOf(results, flowCase.mesh);
+  numbers.places = std::move(places.cells);
   numbers.names.resize(numbers.columns.size());
   fillHoles(numbers);
   const auto table = std::make_shared<GridTable>(
       std::vector<GridTable::Coordinate>{{"first", units::length}, {"second", units::length}}, numbers);
   std::size_t column = 0;
   const auto next = [&]() -> FieldFunction {
-    return [table, at = column++](const Vector3& place, double) { return table->value(at, place); };
+    return [table, at = column++, box = places.box](const Vector3& place, double) {
+      return box ? table->value(at, box->of(place[0], place[1])) : table->value(at, place);
+    };
   };
   fields.gas.temperature = next();
   for (std::size_t k = 0; k < flowCase.mechanism->numSpecies(); ++k)

@@ -17,6 +17,7 @@ void addInitialFlowKeys(DeckSchema& schema);
 // Gas, velocity and carried scalars of an earlier flow, between cells linearly. Species are matched by name: those that
 // the mechanism has and the earlier one has not are zero, those that it lacks are left out and the others scaled to sum
 // one. Carried scalars are taken where all of this run's model are there. What is left out becomes notes of `flowCase`.
+// Of a bent box by columns and shares of the height, as cells beside a bent wall are thinner than what it bends by.
 // InputError where the file holds no such results, or those of another geometry or a smaller domain, or where more than
 // a few percent of the mass of a cell would be left out.
 InitialFields readInitialFlow(const Deck& deck, FlowCase& flowCase);
