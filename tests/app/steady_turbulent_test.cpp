@@ -3,7 +3,9 @@
 #include <cmath>
 #include <optional>
 
+#include "core/errors.hpp"
 #include "tests/app/flow_runs.hpp"
+#include "tests/core/mpi_support.hpp"
 #include "tests/shared_scratch.hpp"
 
 namespace lampblack::app {
@@ -67,6 +69,30 @@ TEST(SteadyMode, FindsATurbulentChannel) {
     const auto [low, high] = std::ranges::minmax(b);
     for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], b[i], 1e-5 * (high - low)) << field << ' ' << i;
   }
+}
+
+class FailsInTheMiddle : public Operator {
+ public:
+  [[nodiscard]] const char* name() const override { return "fault"; }
+  void advance(State&, double time, double) override {
+    if (time > 2.5e-3) collectively(MPI_COMM_WORLD, [] { throw NumericsError("made to fail"); });
+  }
+};
+
+// Where a run fails whose cells at walls are not what its model is for, that is told.
+TEST(StepRetry, FailuresTellOfCellsThatAreTooThinForTheLawOfTheWall) {
+  const test::SharedScratchFolder scratch;
+  FailsInTheMiddle fault;
+  const auto told = [&](const char* name, const std::string& cells) {
+    return test::messageOf<NumericsError>([&] {
+      test::runFlow(halfChannel({cells, "time={end: 1 s, first_step: 1 ms, maximum_step: 1 ms, retries: 1}"}),
+                    scratch.path() / name, {}, &fault);
+    });
+  };
+  EXPECT_THAT(told("thin", "mesh.y=[{to: 5 cm, cells: 20, ratio: 400}]"),
+              testing::AllOf(testing::HasSubstr("made to fail"), testing::HasSubstr("holds from 30 to 300")));
+  EXPECT_THAT(told("thick", "mesh.y=[{to: 5 cm, cells: 20}]"),
+              testing::AllOf(testing::HasSubstr("made to fail"), testing::Not(testing::HasSubstr("law of the wall"))));
 }
 
 // The same by a k-omega model and both layers of the law of the wall at once, cells of y+ 100: the wall takes what

@@ -226,6 +226,9 @@ class FlowLoop {
 
   // Writes a checkpoint and the last state in the results; returns the text that says where.
   std::string saveLastState(Outputs& outputs);
+  // What a model of turbulence wants of the cells beside walls and does not have, which may be why a run fails; "; ..."
+  // or empty.
+  [[nodiscard]] std::string mistakeAtWalls() const;
 
   // saveLastState(), then throws Stopped.
   [[noreturn]] void stop(Outputs& outputs);

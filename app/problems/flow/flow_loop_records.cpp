@@ -350,6 +350,11 @@ std::string FlowLoop::saveLastState(Outputs& outputs) {
   return fmt::format("the fields until then are in {}; {}", outputs.folder.partialResults().string(), checkpoint);
 }
 
+std::string FlowLoop::mistakeAtWalls() const {
+  const std::string warning = domain_->turbulence ? domain_->turbulence->warning() : "";
+  return warning.empty() ? "" : "; " + warning;
+}
+
 void FlowLoop::stop(Outputs& outputs) {
   const std::string where = fmt::format("at t = {:.6g} s, step {}: {}", time_, steps_, saveLastState(outputs));
   if (requests_.signal != 0) raiseStopped(comm_, requests_.signal, where);

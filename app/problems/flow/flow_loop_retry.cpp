@@ -101,8 +101,8 @@ void FlowLoop::endAfterFailure(Outputs& outputs, const std::exception_ptr& failu
   }
   std::vector<std::string> steps;
   for (const double dt : tried) steps.push_back(fmt::format("{:.3g} s", dt));
-  const std::string more = fmt::format("; this was step {} from t = {:.6g} s, tried with dt = {}; {}", steps_ + 1,
-                                       time_, fmt::join(steps, ", "), kept);
+  const std::string more = fmt::format("; this was step {} from t = {:.6g} s, tried with dt = {}{}; {}", steps_ + 1,
+                                       time_, fmt::join(steps, ", "), mistakeAtWalls(), kept);
   try {
     std::rethrow_exception(failure);
   } catch (const InputError& error) {

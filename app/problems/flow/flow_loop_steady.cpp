@@ -195,9 +195,10 @@ void FlowLoop::giveUp(Outputs& outputs) {
           "flow that moves by itself has none or one that steps in time pass by: look at it in time (--restart with "
           "'time.mode: transient' and 'time.end'), and start from a later moment of that (initial.flow.results, "
           "with time.steady.steps: 30); else more iterations (time.steady.iterations, time.steady.returns) may "
-          "find it, or smaller cells at that place, or it is small enough as it is (time.steady.residual); {}",
+          "find it, or smaller cells at that place, or it is small enough as it is (time.steady.residual){}; {}",
           search_->options().residual, search_->steps(), search_->iterations(),
-          search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, kept)));
+          search_->whyNot().empty() ? "" : " (the last of which: " + search_->whyNot() + ")", rest, mistakeAtWalls(),
+          kept)));
 }
 
 void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
