@@ -140,6 +140,25 @@ TEST(Turbulence, StrainHasTheSlopeOfItsLogarithm) {
   EXPECT_EQ(sumOverRanks(beside), 7.0);
 }
 
+// Strain in proportion to x, whose logarithm bends: lap S/S, nearly nothing, by the differences of the logarithm.
+TEST(Turbulence, StrainBendsAsItsLogarithmDoes) {
+  const double a = 4e4, h = 0.001;
+  TurbulentSquare square(std::make_shared<PointwiseModel<StrainProbe>>());
+  State state = square.state([&](const Vector3& x) { return Vector3{0.0, 0.5 * a * x[0] * x[0]}; });
+  TurbulenceOperator turbulence = square.turbulence(state);
+  turbulence.setStart(state, {ofMolecules, ofMolecules, 2.0});
+  State::Balance rates = state.balance;
+  turbulence.addRates(state, rates);
+  square.forCellsWellInside([&](std::size_t c, const Vector3& x) {
+    const auto isFar = [&](double along) { return std::abs(along - 0.5 * TurbulentSquare::length) > 1.5 * h; };
+    if (isFar(x[0]) || isFar(x[1])) return;
+    const double before = std::log(1.0 - h / x[0]), after = std::log(1.0 + h / x[0]),
+                 slope = 0.5 * (after - before) / h;
+    const double bend = (after + before) / (h * h) + slope * slope;
+    EXPECT_NEAR(rates.carried[2 * c] / state.density[c], bend, 1e-6 * slope * slope);
+  });
+}
+
 // About an axis with swirl w = r (F + G z + H r), by the tensor written out: no strain of a gas that turns as a whole.
 TEST(Turbulence, SwirlHasItsShear) {
   const double a = 2.0, b = TwoVariables::second, ofMantle = 2.0;
