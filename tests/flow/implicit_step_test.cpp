@@ -228,7 +228,7 @@ TEST(ImplicitSteps, AreFollowedByTheGasAloneWhereTheFlowRests) {
   for (int i = 0; i < 60 && iteration.last().measure >= 1e-6 * (i > 0); ++i) iteration.iterate(state);
   for (const bool isAlone : {true, true, false, true, true, false}) {
     const State before = state;
-    const SteadyIteration::Outcome outcome = iteration.iterate(state, false);
+    const SteadyIteration::Outcome outcome = iteration.iterate(state, {.combined = false, .newtons = false});
     EXPECT_TRUE(outcome.taken);
     EXPECT_EQ(outcome.newtonIterations > 0, !isAlone);
     EXPECT_EQ(outcome.flowIterations, 0);
