@@ -16,6 +16,13 @@ void leaveOut(const State& state, std::span<double> perFace) {
       for (std::size_t i = s; i < perFace.size(); i += state.scalars.size()) perFace[i] = 0.0;
 }
 
+// kg/m3, between the cells of a face, whichever way the gas flows: with the density of the gas upwind diffusion would
+// jump where the flow turns round, and a state with such a face need not have a steady one beside it.
+double densityBetween(const Mesh& m, const State& state, int face) {
+  const double w = m.lowWeight[face];
+  return w * state.density[m.low[face]] + (1.0 - w) * state.density[m.high[face]];
+}
+
 }  // namespace
 
 bool CarriedTransport::hasDriftToWall(const FaceState& faces, int face) const {
@@ -32,9 +39,12 @@ void CarriedTransport::findDrift(const Gas& gas) {
     const auto mean = [&](std::span<const double> field) { return w * field[low] + (1.0 - w) * field[high]; };
     const double slope = faceSlope(m, face, m.normal[face], temperatureGradient);
     driftFlux_[face] = -m.area[face] * mean(gas.viscosity) * slope / mean(gas.mean.temperature);
+    faceDensity_[face] = densityBetween(m, gas.mean, face);
   }
-  for (int face = m.interiorFaces; face < m.faces; ++face)
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
     driftFlux_[face] = hasDriftToWall(gas.faces, face) ? driftToWall(gas, face) : 0.0;
+    faceDensity_[face] = gas.faces.density[face];
+  }
 }
 
 // -A mu (grad T . n)/T at the end of the still layer at a wall, by the heat that the wall takes: viscosity
@@ -163,10 +173,7 @@ void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces,
   for (int face = 0; face < m.interiorFaces; ++face) {
     const int low = m.low[face], high = m.high[face];
     const double w = m.lowWeight[face];
-    // Whichever way the gas flows: with the density of the gas upwind diffusion would jump where the flow turns round,
-    // and a state with such a face need not have a steady one beside it.
-    const double density = w * state.density[low] + (1.0 - w) * state.density[high];
-    const double metric = density * m.area[face] / m.distance[face];
+    const double metric = densityBetween(m, state, face) * m.area[face] / m.distance[face];
     for (int s = 0; s < n; ++s) {
       double& g = conductance[face * n + s];
       g = metric * (w * D[low * n + s] + (1.0 - w) * D[high * n + s]);

@@ -25,6 +25,7 @@ class CarriedTransport {
         gradient_(context.mesh),
         flux_(static_cast<std::size_t>(context.mesh.faces) * state.scalars.size(), 0.0),
         driftFlux_(static_cast<std::size_t>(state.scalars.empty() ? 0 : context.mesh.faces), 0.0),
+        faceDensity_(driftFlux_.size(), 0.0),
         nothingPasses_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope) {}
 
   // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
@@ -58,6 +59,9 @@ class CarriedTransport {
   // alone.
   [[nodiscard]] std::vector<double>& driftFlux() { return driftFlux_; }
   [[nodiscard]] const std::vector<double>& driftFlux() const { return driftFlux_; }
+  // kg/m3, with which what is carried diffuses through each face in the last step.
+  [[nodiscard]] std::vector<double>& faceDensity() { return faceDensity_; }
+  [[nodiscard]] const std::vector<double>& faceDensity() const { return faceDensity_; }
 
  private:
   void findDrift(const Gas& gas);
@@ -77,7 +81,7 @@ class CarriedTransport {
   const FlowContext& context_;
   ImplicitDiffusion& diffusion_;
   Gradient gradient_;
-  std::vector<double> flux_, driftFlux_;
+  std::vector<double> flux_, driftFlux_, faceDensity_;
   // Of what is carried per mass of gas, where steps are oblique to faces.
   mutable std::vector<double> perMass_, perMassGradient_;
   mutable std::vector<double> diffusivity_;  // with that of the eddies; unused in laminar flow

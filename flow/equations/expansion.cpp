@@ -78,11 +78,10 @@ void Expansion::addContents(const State& state, const GasProperties& properties,
     divergence_[c] += factor * ofSpecies(state, properties, c, &contents[c * n]);
 }
 
-void Expansion::begin(const State& state, const GasProperties& properties, bool isFirstSweep, double dt,
-                      double lastStep) {
+void Expansion::begin(const State& state, const GasProperties& properties, Sweep sweep, double dt, double lastStep) {
   pressureDrift(state);
   dt_ = dt;
-  if (!isFirstSweep) {
+  if (sweep == Sweep::Later) {
     for (std::size_t c = 0; c < divergence_.size(); ++c) divergence_[c] += drift_[c] / dt;
     return;
   }
@@ -95,7 +94,8 @@ void Expansion::begin(const State& state, const GasProperties& properties, bool 
       correction_[c] = (correction_[c] + share * ((gained_[c] - balance_[c]) * lastStep + drift_[c])) * (dt / lastStep);
     double left = drift_[c];
     const double before = lastStep > 0.0 ? lastDrift_[c] : 0.0;
-    if (left * before < 0.0) left = std::copysign(std::max(std::abs(left) - std::abs(before), 0.0), left);
+    if (sweep == Sweep::Only && left * before < 0.0)
+      left = std::copysign(std::max(std::abs(left) - std::abs(before), 0.0), left);
     divergence_[c] = balance_[c] + (correction_[c] + left) / dt;
   }
   lastDrift_ = drift_;

@@ -3,12 +3,13 @@
 // In a step's first sweep it is
 //   (1/(rho cp T)) (E - sum_k h_k M_k) + sum_k (W/W_k) M_k / rho   (Day and Bell 2000)
 // with E and M_k the enthalpy and mass that diffusion and State::balance bring into a cell, and what takes away the
-// p_eos - p0 that the last step has left (volume discrepancy; Nonaka et al. 2012); of what has changed its sign since
-// the step before only what is more than that was. Of heat that goes to and fro from step to step all taken away at
-// once would make the velocity answer three times as much as the heat, and a cell that burns what comes to it, and
-// pushes it back while it burns, go to and fro for ever. A correction is added that takes up, a tenth each step, what
-// this has missed, but for what State::balance has got to know since: nothing of p_eos - p0 is left in a steady state.
-// Each further sweep adds what takes away the p_eos - p0 that the last sweep has left (Pazner et al. 2016).
+// p_eos - p0 that the last step has left (volume discrepancy; Nonaka et al. 2012); in steps of one sweep, of what has
+// changed its sign since the step before, only what is more than that was. Of heat that goes to and fro from step to
+// step all taken away at once would make the velocity answer three times as much as the heat, and a cell that burns
+// what comes to it, and pushes it back while it burns, go to and fro for ever. A correction is added that takes up, a
+// tenth each step, what this has missed, but for what State::balance has got to know since: nothing of p_eos - p0 is
+// left in a steady state. Each further sweep adds what takes away the p_eos - p0 that the last sweep has left (Pazner
+// et al. 2016).
 #pragma once
 
 #include <span>
@@ -32,8 +33,10 @@ class Expansion {
  public:
   explicit Expansion(const FlowContext& context);
 
+  // Which of a step's sweeps.
+  enum class Sweep { Only, First, Later };
   // Begins a sweep over dt: with p_eos - p0 of the state. `lastStep` (s): that before this one, 0 if there is none.
-  void begin(const State& state, const GasProperties& properties, bool isFirstSweep, double dt, double lastStep);
+  void begin(const State& state, const GasProperties& properties, Sweep sweep, double dt, double lastStep);
   // After begin(): the reactions of State::balance in a cell have become others, by `change` (kg/m3/s).
   void changeReactions(const State& state, const GasProperties& properties, int cell, std::span<const double> change,
                        bool isFirstSweep);

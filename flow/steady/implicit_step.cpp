@@ -14,6 +14,7 @@ namespace {
 // the least that was left), and what of the step's equations is enough. Gas that a step burns or cools by 1000 K takes
 // ten passes of its limits.
 constexpr double linearReduction = 0.05;
+constexpr int vectorsInTime = 60;
 constexpr int mostNewtonPasses = 12, mostIdlePasses = 2;
 constexpr double progress = 0.9;
 constexpr double enough = 0.15;
@@ -41,7 +42,7 @@ ImplicitStep::ImplicitStep(const FlowContext& context, const State& state, FlowR
       residual_(residual),
       carried_(carried),
       operators_(std::move(operators)),
-      newton_(context, state, residual, gas),
+      newton_(context, state, residual, gas, vectorsInTime),
       inertia_(static_cast<std::size_t>(context.mesh.owned)) {}
 
 void ImplicitStep::shorten() {

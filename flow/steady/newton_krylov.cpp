@@ -10,8 +10,6 @@
 namespace lampblack::flow {
 namespace {
 
-constexpr int krylov = 150;
-
 NewtonKrylov* newtonOf(void* context) {
   return static_cast<NewtonKrylov*>(context);
 }
@@ -19,13 +17,14 @@ NewtonKrylov* newtonOf(void* context) {
 }  // namespace
 
 NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
-                           CarriedUpdate* carried, std::vector<Operator*> operators)
+                           int vectors, CarriedUpdate* carried, std::vector<Operator*> operators)
     : context_(context),
       residual_(residual),
       gas_(gas),
       carried_(carried),
       operators_(std::move(operators)),
       flow_(context, state, residual),
+      vectors_(vectors),
       width_(static_cast<std::size_t>(state.species) + 1),
       velocities_(static_cast<std::size_t>(state.dimension) + (state.swirls ? 1 : 0)),
       scalars_(carried ? state.scalars.size() : 0),
@@ -52,7 +51,7 @@ NewtonKrylov::NewtonKrylov(const FlowContext& context, const State& state, FlowR
   checkPetsc(MatCreateVecs(matrix_.get(), solution_.put(), rightSide_.put()));
   checkPetsc(KSPCreate(m.comm, solver_.put()));
   checkPetsc(KSPSetType(solver_.get(), KSPFGMRES));
-  checkPetsc(KSPGMRESSetRestart(solver_.get(), krylov));
+  checkPetsc(KSPGMRESSetRestart(solver_.get(), vectors_));
   checkPetsc(KSPSetOperators(solver_.get(), matrix_.get(), matrix_.get()));
   PC preconditioner = nullptr;
   checkPetsc(KSPGetPC(solver_.get(), &preconditioner));
@@ -203,7 +202,7 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
     const PetscMutableValues values(rightSide_.get());
     for (std::size_t i = 0; i < size_; ++i) values.get()[i] = rows_[i] * leftInTime_[i];
   }
-  checkPetsc(KSPSetTolerances(solver_.get(), reduction, 1e-300, 1e10, krylov));
+  checkPetsc(KSPSetTolerances(solver_.get(), reduction, 1e-300, 1e10, vectors_));
   exceptions_.run([&] { return KSPSolve(solver_.get(), rightSide_.get(), solution_.get()); });
   Result result;
   result.before = before;

@@ -25,8 +25,9 @@ namespace lampblack::flow {
 class NewtonKrylov {
  public:
   // Collective. All have to live as long. `carried`: of all that the flow carries, which is unknown, too, then, and
-  // what the operators make of it (Operator::setDiffusivities) follows; null: it stays as it is, per mass.
-  NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas,
+  // what the operators make of it (Operator::setDiffusivities) follows; null: it stays as it is, per mass. `vectors`:
+  // at most, of the linear solver, each of which takes 16 B an unknown while it is used.
+  NewtonKrylov(const FlowContext& context, const State& state, FlowResidual& residual, GasUpdate& gas, int vectors,
                CarriedUpdate* carried = nullptr, std::vector<Operator*> operators = {});
 
   // Of equations, over what goes through the domain: all sizes, and the root of all squares, which the worst cell
@@ -67,6 +68,7 @@ class NewtonKrylov {
   CarriedUpdate* carried_;
   std::vector<Operator*> operators_;
   CoupledFlow flow_;
+  int vectors_;
   std::size_t width_, velocities_, scalars_, perCell_, pastFlow_, faces_, size_;
   const State* base_ = nullptr;
   std::span<const double> inertia_;

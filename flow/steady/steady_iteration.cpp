@@ -29,6 +29,8 @@ constexpr std::size_t acceleratedDepth = 10;  // iterations that are combined
 constexpr double afterFailure = 0.25;
 constexpr double leastCourant = 1e-2;
 constexpr double growthAfterFailure = 1.2;
+// Of the linear solver of Newton's method: stiff gas in thin cells needs many (sooting bluff bodies more than 60).
+constexpr int newtonVectors = 150;
 constexpr int mostOfGasAlone = 2;  // iterations after steps of one time, or Newton's, where the flow rests
 // Of the Courant number, at least, where no cell was limited and no more is left than before: in thin cells the
 // residual falls as slowly as a small one lets it, and would hold it where it is.
@@ -59,9 +61,9 @@ SteadyIteration::SteadyIteration(const FlowContext& context, const State& state,
   // a closed vessel moves.
   if (!control_ && !context.isClosed() && options.newton) {
     if (state.eddyViscosity.empty())
-      newton_.emplace(context, state, residual_, gas_);
+      newton_.emplace(context, state, residual_, gas_, newtonVectors);
     else
-      newton_.emplace(context, state, residual_, gas_, &*carried_, operators_);
+      newton_.emplace(context, state, residual_, gas_, newtonVectors, &*carried_, operators_);
     if (options.oneTime && !state.eddyViscosity.empty() && context.mechanism.numReactions() > 0)
       step_.emplace(context, state, residual_, gas_, *carried_, operators_);
   }
@@ -213,12 +215,12 @@ SteadyIteration::Outcome SteadyIteration::tryOne(State& state, Allowed allowed) 
   const double last = measure_;
   int newtonIterations = 0;
   bool isTakenBack = false;
+  if (step_ && last - ofCarried(state, through(state)) >= options_.inTime) return attemptInTime(state);
   if (step_ && !allowed.newtons) {
     const bool all = ofGasAlone_ == mostOfGasAlone;
     ofGasAlone_ = all ? 0 : ofGasAlone_ + 1;
     allowed = {.combined = all, .newtons = all};
   }
-  if (step_ && last - ofCarried(state, through(state)) >= options_.inTime) return attemptInTime(state);
   if (newton_ && allowed.newtons && last < options_.accelerated && !isLimited_ && --waits_ < 0) {
     const Outcome outcome = attemptTogether(state);
     if (outcome.taken) return outcome;

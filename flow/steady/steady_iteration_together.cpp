@@ -94,7 +94,7 @@ SteadyIteration::Outcome SteadyIteration::attemptInTime(State& state) {
     takeBack(state, last);
     outcome.measure = last;
   }
-  // Newton's method goes on with no less time in any cell.
+  // Newton's method goes on with the time of the step in the cell that gas leaves first, as others begin.
   if (outcome.taken) courant_ = step_->time() / convectiveTimeStep(context_.mesh, state, 1.0);
   isLimited_ = !outcome.taken || outcome.limited > 0;
   isAnew_ = !outcome.taken;

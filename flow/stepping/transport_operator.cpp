@@ -292,7 +292,7 @@ void TransportOperator::saveOrLoad(StateArchive& archive) {
   lastStep_ = seen.at(3);
   if (archive.loading()) sweep_ = 0;  // of a step that was broken off
   if (movesForOthers_) {
-    archive.faces("face_density", faces_.density, 1);
+    archive.faces("face_density", carried_.faceDensity(), 1);
     archive.faces("drift_flux", carried_.driftFlux(), 1);
     archive.cells("mean_molecular_weight", properties_.molecularWeight, 1);
     if (archive.loading()) {
@@ -312,7 +312,8 @@ void TransportOperator::advance(State& state, double time, double dt) {
   // The gas's boundaries at the middle of its step, those of the velocities at the middle of theirs.
   if (first && context_.varying) context_.varying->set(time + 0.5 * dt, time + 0.25 * (dt - lastStep_));
   collectively(m.comm, [&] { properties_.update(context_, state); });
-  expansion_.begin(state, properties_, first, dt, lastStep_);
+  using Sweep = Expansion::Sweep;
+  expansion_.begin(state, properties_, !first ? Sweep::Later : several ? Sweep::First : Sweep::Only, dt, lastStep_);
   speciesDiffusion_.prepare(state, properties_);
   heatConduction_.prepare(state, properties_);
   if (first) state.keepStart();

@@ -78,10 +78,9 @@ class TransportOperator : public Operator {
   [[nodiscard]] const Diagnostics& diagnostics() const { return diagnostics_; }
   [[nodiscard]] const BoundaryAmounts& boundaryAmounts() const { return boundary_; }
   [[nodiscard]] const GasProperties& properties() const { return properties_; }
-  // Of the last step, for who moves particles himself: CarriedTransport::driftFlux(), and the gas's density at the
-  // faces, kg/m3.
+  // Of the last step, for who moves particles himself: CarriedTransport's.
   [[nodiscard]] std::span<const double> driftFlux() const { return carried_.driftFlux(); }
-  [[nodiscard]] std::span<const double> faceDensity() const { return faces_.density; }
+  [[nodiscard]] std::span<const double> faceDensity() const { return carried_.faceDensity(); }
   // CarriedTransport::flux(), of the last step; of one block's scalars through one face.
   [[nodiscard]] std::span<const double> carriedFlux() const { return carried_.flux(); }
   [[nodiscard]] std::span<const double> carriedFlux(const ScalarRange& block, int face) const {

@@ -67,7 +67,7 @@ TEST(NewtonSteps, LeaveTheSquare) {
   EXPECT_GE(newtons, 3);
   FlowResidual residual(b.context, found, VelocityScheme::Limited, operators);
   GasUpdate gas(b.context, found, operators);
-  NewtonKrylov newton(b.context, found, residual, gas);
+  NewtonKrylov newton(b.context, found, residual, gas, 60);
   const std::vector<double> none(at(b.mesh.owned), 0.0);
   const auto left = [&](double size) {
     State state = found;
@@ -113,7 +113,7 @@ TEST(NewtonSteps, LeaveTheSquareWhereEddiesStir) {
   FlowResidual residual(b.context, found, VelocityScheme::Limited, channel.operators);
   GasUpdate gas(b.context, found, channel.operators);
   CarriedUpdate carried(b.context, found, residual, channel.operators);
-  NewtonKrylov newton(b.context, found, residual, gas, &carried, channel.operators);
+  NewtonKrylov newton(b.context, found, residual, gas, 60, &carried, channel.operators);
   const std::vector<double> none(at(b.mesh.owned), 0.0);
   const auto left = [&](double size) {
     State state = found;
@@ -173,7 +173,7 @@ TEST(NewtonSteps, LeaveTheSquareOfParticlesBesideEddies) {
   FlowResidual residual(b.context, found, VelocityScheme::Limited, channel.operators);
   GasUpdate gas(b.context, found, channel.operators);
   CarriedUpdate carried(b.context, found, residual, channel.operators);
-  NewtonKrylov newton(b.context, found, residual, gas, &carried, channel.operators);
+  NewtonKrylov newton(b.context, found, residual, gas, 60, &carried, channel.operators);
   const std::vector<double> none(at(b.mesh.owned), 0.0);
   const std::size_t all = found.scalars.size(), dust = at(found.block("dust").first);
   const auto left = [&](double size, double ofVelocity, int mostIterations) {
