@@ -19,6 +19,17 @@ struct Stepped : StirredChannel {
   CarriedUpdate carried{box->context, *state, residual, operators};
 };
 
+// All that iterations go on from.
+auto partsOf(StirredChannel& c, SteadyIteration& iteration) {
+  return [&](StateArchive& archive) {
+    c.state->saveOrLoad(archive);
+    if (archive.loading()) c.state->updateHalo(c.box->halo);
+    for (Operator* op : c.operators) op->setDiffusivities(*c.state);
+    c.state->updateHalo(c.box->halo);
+    iteration.saveOrLoad(*c.state, archive);
+  };
+}
+
 // Newton's method in a step of given time ends where what changes over the time is what is left at its end.
 TEST(ImplicitSteps, TakeTheRatesOfTheirEnd) {
   Stepped channel;
@@ -215,6 +226,9 @@ TEST(ImplicitSteps, AreTheIterationsOfWhatEddiesStir) {
   EXPECT_TRUE(first.taken);
   EXPECT_GT(first.newtonIterations, 0);
   EXPECT_EQ(first.gasIterations, 0);
+  // The next are twice as long each, and what follows them has no less time in a cell.
+  for (const double courant : {2.0, 4.0, 8.0})
+    EXPECT_NEAR(iteration.iterate(*channel.state).courant / courant, 1.0, 0.1);
   double measure = first.measure;
   for (int i = 0; i < 60 && measure > 1e-10; ++i) measure = iteration.iterate(*channel.state).measure;
   EXPECT_LE(measure, 1e-10);
@@ -248,6 +262,87 @@ TEST(ImplicitSteps, AreFollowedByTheGasAloneWhereTheFlowRests) {
                       }) < 1e-14,
               isAlone);
   }
+  // How often it was alone is of what is saved.
+  const SteadyIteration::Allowed alone{.combined = false, .newtons = false};
+  iteration.iterate(state, alone);
+  StirredChannel other;
+  SteadyIteration again(other.box->context, *other.state, {.oneTime = true}, other.operators);
+  StateBackup kept(channel.box->mesh.owned, channel.box->mesh.faces);
+  kept.save(partsOf(channel, iteration));
+  kept.restore(partsOf(other, again));
+  for (const bool isAlone : {true, false}) EXPECT_EQ(again.iterate(*other.state, alone).newtonIterations == 0, isAlone);
+}
+
+// Iterations of a search by such steps leave a tenth of what they take away, others nothing.
+TEST(ImplicitSteps, AreBesideIterationsThatLeaveATenthOfASpecies) {
+  const Gas& gas = Gas::hydrogen();
+  const std::size_t hydrogen = gas.mechanism.speciesIndex("H2"), nitrogen = gas.mechanism.speciesIndex("N2");
+  for (const bool oneTime : {false, true}) {
+    StirredChannel channel;
+    State& state = *channel.state;
+    const auto n = static_cast<std::size_t>(state.species);
+    for (int c = 0; c < channel.box->mesh.owned; ++c) {  // which cold air drives out
+      state.Y[at(c) * n + hydrogen] += 0.01;
+      state.Y[at(c) * n + nitrogen] -= 0.01;
+      followGas(channel.box->context, state, c);
+    }
+    state.updateHalo(channel.box->halo);
+    SteadyIteration iteration(channel.box->context, state, {.firstCourant = 1e4, .inTime = 1e300, .oneTime = oneTime},
+                              channel.operators);
+    const SteadyIteration::Outcome outcome = iteration.iterate(state, {.combined = false, .newtons = false});
+    EXPECT_EQ(outcome.limited > 0, oneTime);
+  }
+}
+
+// Fails as often as it is told.
+class Broken : public Operator {
+ public:
+  [[nodiscard]] const char* name() const override { return "broken"; }
+  void advance(State&, double, double) override {}
+  void setDiffusivities(State&) override {
+    if (fails-- > 0) throw NumericsError("broken");
+  }
+  int fails = 0;
+};
+
+// A step that ends with an error is tried again, shorter, six times; then the state is what it was.
+TEST(ImplicitSteps, AreTriedAgainShorterAfterErrors) {
+  StirredChannel channel;
+  State& state = *channel.state;
+  Broken broken;
+  channel.operators.push_back(&broken);
+  SteadyIteration iteration(channel.box->context, state, {.oneTime = true}, channel.operators);
+  const double measure = iteration.iterate(state).measure;
+  const State start = state;
+  broken.fails = 6;
+  const SteadyIteration::Outcome failed = iteration.iterate(state);
+  EXPECT_FALSE(failed.taken);
+  EXPECT_EQ(failed.why, "broken");
+  EXPECT_EQ(failed.measure, measure);
+  EXPECT_EQ(state.velocity, start.velocity);
+  broken.fails = 0;
+  EXPECT_TRUE(iteration.iterate(state).taken);
+  // Twice the first, six times shorter, and 1.5 times longer again.
+  const double time = 2.0 * std::pow(0.4, 6) * 1.5;
+  EXPECT_NEAR(iteration.iterate(state).courant / time, 1.0, 0.1);
+}
+
+// A time that was refused is of what is saved: the next steps grow towards it more slowly.
+TEST(ImplicitSteps, GoOnBelowTheTimeThatWasRefused) {
+  Stepped channel, other;
+  const auto stepOf = [](Stepped& c) {
+    return ImplicitStep(c.box->context, *c.state, c.residual, c.gas, c.carried, c.operators);
+  };
+  ImplicitStep one = stepOf(channel), two = stepOf(other);
+  const std::vector<double> even(at(channel.box->mesh.owned), 1.0);
+  EXPECT_TRUE(one.advance(*channel.state, even).taken);
+  one.shorten();
+  const double time = one.time();
+  StateBackup kept(channel.box->mesh.owned, channel.box->mesh.faces);
+  kept.save([&](StateArchive& archive) { one.saveOrLoad(archive); });
+  kept.restore([&](StateArchive& archive) { two.saveOrLoad(archive); });
+  EXPECT_TRUE(two.advance(*other.state, even).taken);
+  EXPECT_NEAR(two.time(), 1.5 * time, 1e-12 * time);
 }
 
 // The time of the next step, and the one that was refused, are of what is saved.
@@ -257,15 +352,6 @@ TEST(ImplicitSteps, GoOnFromWhatWasSavedWithTheSameBits) {
   SteadyIteration one(channel.box->context, *channel.state, options, channel.operators);
   SteadyIteration two(other.box->context, *other.state, options, other.operators);
   for (int i = 0; i < 4; ++i) EXPECT_TRUE(one.iterate(*channel.state).taken);
-  const auto partsOf = [](StirredChannel& c, SteadyIteration& iteration) {
-    return [&](StateArchive& archive) {
-      c.state->saveOrLoad(archive);
-      if (archive.loading()) c.state->updateHalo(c.box->halo);
-      for (Operator* op : c.operators) op->setDiffusivities(*c.state);
-      c.state->updateHalo(c.box->halo);
-      iteration.saveOrLoad(*c.state, archive);
-    };
-  };
   StateBackup kept(channel.box->mesh.owned, channel.box->mesh.faces);
   kept.save(partsOf(channel, one));
   kept.restore(partsOf(other, two));
