@@ -22,7 +22,7 @@ mesh:
   geometry: planar
   x: [{to: 40 cm, cells: 8}]
   y: [{to: 10 cm, cells: 8, ratio: 60}]
-  floor: {formula: "0.03*sin(pi*x/0.4)^2"}
+  floor: {formula: "0.01+0.03*sin(pi*x/0.4)^2"}
 boundaries:
   in: {type: inlet, side: x-min, velocity: 2 cm/s, temperature: 300 K, composition: "GAS: 1"}
   out: {type: outlet, side: x-max, temperature: 300 K, composition: "GAS: 1"}
@@ -35,33 +35,41 @@ output: {species: [all]}
                         overrides);
 }
 
-TEST(BentBoxStart, PlacesGoByColumnsAndHeights) {
+// Of a box whose floor is bent, or whose ceiling is.
+void placesGoByColumnsAndHeights(bool isFloor) {
   MeshSpec mesh;
   mesh.vertices[0] = {0.0, 1.0, 3.0};
-  mesh.vertices[1] = {0.0, 0.5, 2.0};
-  const auto low = [](double x) { return 0.25 * x * x; };
+  mesh.vertices[1] = {1.0, 1.5, 3.0};
+  const auto low = [&](double x) { return isFloor ? 0.25 * x * x : 1.0; };
+  const auto high = [&](double x) { return isFloor ? 4.0 : 4.0 + 0.5 * x * x; };
   mesh.map = [&](const std::array<double, 3>& place) {
-    return std::array{place[0], low(place[0]) + 0.5 * place[1] * (4.0 - low(place[0])), place[2]};
+    const double x = place[0];
+    return std::array{x, low(x) + 0.5 * (place[1] - 1.0) * (high(x) - low(x)), place[2]};
   };
   std::vector<double> vertices;
   for (const double y : mesh.vertices[1])
     for (const double x : mesh.vertices[0])
       for (const double coordinate : mesh.map({x, y, 0.0})) vertices.push_back(coordinate);
   for (const BoxPlaces& places : {BoxPlaces(mesh), BoxPlaces(vertices)}) {
-    // Half way between the last columns the floor is at the mean of its heights there, 0.25 and 2.25 m.
-    const auto [x, share] = places.of(2.0, 1.25 + 0.4 * (4.0 - 1.25));
+    // Half way between the last columns floor and ceiling are at the means of their heights there.
+    const double floor = 0.5 * (low(1.0) + low(3.0)), ceiling = 0.5 * (high(1.0) + high(3.0));
+    const auto [x, share] = places.of(2.0, floor + 0.4 * (ceiling - floor));
     EXPECT_DOUBLE_EQ(x, 2.0);
     EXPECT_NEAR(share, 0.4, 1e-15);
-    EXPECT_EQ(places.middle(2.9, 2.3), (std::array{2.0, 0.125}));
+    EXPECT_EQ(places.middle(2.9, isFloor ? 2.3 : 2.0), (std::array{2.0, 0.125}));
     EXPECT_EQ(places.middle(0.1, 3.0), (std::array{0.5, 0.625}));
-    EXPECT_DOUBLE_EQ(places.rise(), 2.25);
+    EXPECT_DOUBLE_EQ(places.rise(), isFloor ? 2.25 : 4.5);
   }
   MeshSpec other = mesh;
   other.vertices[0] = {0.0, 3.0};
-  EXPECT_DOUBLE_EQ(BoxPlaces(mesh).apart(BoxPlaces(other)), 0.5);
+  EXPECT_DOUBLE_EQ(BoxPlaces(mesh).apart(BoxPlaces(other)), isFloor ? 0.5 : 1.0);
   EXPECT_DOUBLE_EQ(BoxPlaces(other).apart(BoxPlaces(mesh)), 0.0);
   vertices.resize(15);
   EXPECT_THROW((BoxPlaces(vertices)), InputError);
+}
+
+TEST(BentBoxStart, PlacesGoByColumnsAndHeights) {
+  for (const bool isFloor : {true, false}) placesGoByColumnsAndHeights(isFloor);
 }
 
 TEST(BentBoxStart, IsTheCoarserMeshCellByCell) {
@@ -93,7 +101,11 @@ TEST(BentBoxStart, IsTheCoarserMeshCellByCell) {
     FlowCase other = readFlowCase(overAHill(overrides));
     return test::messageOf<InputError>([&] { flowcase::readEarlierFlow(file, {}, other); });
   };
-  EXPECT_THAT(refused({"mesh.floor.formula='0.02*sin(pi*x/0.4)^2'"}), HasSubstr("another floor or ceiling"));
+  EXPECT_THAT(refused({"mesh.floor.formula='0.01+0.02*sin(pi*x/0.4)^2'"}), HasSubstr("another floor or ceiling"));
+  // Also where they are apart on the columns of one of the meshes only.
+  EXPECT_THAT(refused({"mesh.refinement=2", "mesh.floor.formula='0.01+0.03*sin(pi*x/0.4)^2+0.006*sin(pi*x/0.05)'"}),
+              HasSubstr("another floor or ceiling"));
+  EXPECT_THAT(refused({"mesh.x=[{to: 40 cm, cells: 4}]"}), HasSubstr("another floor or ceiling"));
   EXPECT_THAT(refused({"mesh.x=[{to: 50 cm, cells: 8}]"}), HasSubstr("reaches from"));
   FlowCase even = readFlowCase(overAHill({}));
   even.mesh.map = nullptr;
