@@ -57,6 +57,19 @@ std::string insteadOfNumber(std::string_view rest) {
   return fmt::format(", found '{}'{}", found, hint);
 }
 
+// What is no blank behind a number, and what to write: ' %' and the ',5' of a decimal comma.
+std::string hintBehindNumber(std::string_view number, std::string_view behind) {
+  if (trimmed(behind).starts_with('%'))
+    return fmt::format(", found '{} %'; leave out '%', the amounts need not add up to one", number);
+  const auto isDigit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+  if (!behind.starts_with(',') || number.find('.') != std::string_view::npos) return {};
+  const auto end = std::ranges::find_if_not(behind.substr(1), isDigit);
+  const auto digits = behind.substr(1, static_cast<std::size_t>(end - behind.substr(1).begin()));
+  const auto after = behind.substr(1 + digits.size());
+  if (digits.empty() || !(after.empty() || isBlank(after.front()))) return {};
+  return fmt::format(", found '{},{}'; a number has a decimal point, {}.{}", number, digits, number, digits);
+}
+
 }  // namespace
 
 // A name that has ':' or '=', or begins or ends with a blank or comma, stands in quotes: "'a=b': 1".
@@ -84,6 +97,8 @@ std::vector<double> parseAmounts(const Mechanism& mechanism, std::string_view te
     if (parsed.ec != std::errc{} || !std::isfinite(amount) || (length < rest.size() && !isBlank(rest[length])))
       throw InputError(
           fmt::format("{} '{}': expected a number after '{}:'{}", what, text, name, insteadOfNumber(rest)));
+    if (const auto hint = hintBehindNumber(rest.substr(0, length), rest.substr(length)); !hint.empty())
+      throw InputError(fmt::format("{} '{}': expected a number after '{}:'{}", what, text, name, hint));
     if (amount < 0) throw InputError(fmt::format("{} '{}': negative amount of '{}'", what, text, name));
     if (isAir(name) && !mechanism.findSpecies(name))
       throw InputError(

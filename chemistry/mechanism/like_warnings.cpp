@@ -33,6 +33,7 @@ std::string kindOf(std::string_view warning) {
     if (text[at] == '\'') {
       const auto close = text.find('\'', at + 1);
       if (close == std::string_view::npos) break;
+      if (kind.ends_with("unknown key ")) kind += text.substr(at, close - at + 1);
       at = close;
     } else if (std::isdigit(static_cast<unsigned char>(text[at])) == 0 && text[at] != '.') {
       kind += text[at];

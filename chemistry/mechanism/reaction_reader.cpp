@@ -11,6 +11,7 @@
 #include "chemistry/mechanism/equation_parser.hpp"
 #include "chemistry/mechanism/rate_reader.hpp"
 #include "core/errors.hpp"
+#include "core/nearest_name.hpp"
 
 namespace lampblack::chemistry {
 
@@ -61,6 +62,28 @@ constexpr std::array<KeyOfTypes, 14> kKeysOfTypes{{
     {"data", {Type::Chebyshev}},
     {"colliders", {Type::LinearBurke}},
 }};
+
+const std::vector<std::string_view>& knownKeys() {
+  static const std::vector<std::string_view> keys = [] {
+    std::vector<std::string_view> all{"equation",           "type", "units", "duplicate", "orders", "negative-orders",
+                                      "nonreactant-orders", "note", "id",    "reference", "comment"};
+    for (const auto& [key, types] : kKeysOfTypes) all.push_back(key);
+    return all;
+  }();
+  return keys;
+}
+
+// Words of what other programs may mean to change a rate by, which has no key here.
+constexpr std::array<std::string_view, 7> kOthersOfRates{"reversible", "irreversible", "falloff", "multiplier",
+                                                         "third-body", "eff",          "order"};
+
+// Whether a key that is not known has the words of one that a rate depends on: "third-body-efficiencies". 'data' may be
+// of anything.
+bool asksForAnotherRate(std::string_view key) {
+  const auto sharesWords = [&](std::string_view known) { return !nameOfSameWords(key, {std::string(known)}).empty(); };
+  return sharesWords("orders") || std::ranges::any_of(kOthersOfRates, sharesWords) ||
+         std::ranges::any_of(kKeysOfTypes, [&](const auto& of) { return of.key != "data" && sharesWords(of.key); });
+}
 
 bool has(const ParsedEquation::Side& side, std::string_view name) {
   return std::any_of(side.begin(), side.end(), [&](const auto& term) { return term.first == name; });
@@ -160,34 +183,15 @@ class ReactionReader {
     }
   }
 
-  // What no type of reaction has is for another program.
+  // What no type of reaction has is for another program, unless it would change the rate.
   void checkKeys() {
-    entry_.warnOfOthers({"equation",
-                         "type",
-                         "units",
-                         "duplicate",
-                         "orders",
-                         "negative-orders",
-                         "nonreactant-orders",
-                         "note",
-                         "id",
-                         "reference",
-                         "comment",
-                         "rate-constant",
-                         "rate-constants",
-                         "low-P-rate-constant",
-                         "high-P-rate-constant",
-                         "Troe",
-                         "SRI",
-                         "Tsang",
-                         "efficiencies",
-                         "default-efficiency",
-                         "negative-A",
-                         "temperature-range",
-                         "pressure-range",
-                         "data",
-                         "colliders"},
-                        warnings_);
+    for (const auto& entry : entry_.entries())
+      if (std::ranges::find(knownKeys(), entry.key) == knownKeys().end() && asksForAnotherRate(entry.key))
+        fail(entry.keyNode,
+             fmt::format("unknown key '{}', which may be meant to change the rate; the nearest known key "
+                         "is '{}'",
+                         entry.key, closestName(entry.key, knownKeys())));
+    entry_.warnOfOthers(knownKeys(), warnings_);
     for (const auto& [key, types] : kKeysOfTypes)
       if (const auto* found = entry_.find(key);
           found != nullptr && std::ranges::find(types, reaction_.type) == types.end())

@@ -158,18 +158,18 @@ const YAML::Node& YamlMap::at(std::string_view key) const {
   yaml_.fail(node_, fmt::format("{} has no '{}'", what_, key));
 }
 
-std::string YamlMap::unknownKeyText(const Entry& entry, std::initializer_list<std::string_view> keys) const {
+std::string YamlMap::unknownKeyText(const Entry& entry, const std::vector<std::string_view>& keys) const {
   return fmt::format("{}: unknown key '{}'; the nearest known key is '{}'", what_, entry.key,
-                     closestName(entry.key, std::vector<std::string_view>(keys)));
+                     closestName(entry.key, keys));
 }
 
-void YamlMap::allowOnly(std::initializer_list<std::string_view> keys) const {
+void YamlMap::allowOnly(const std::vector<std::string_view>& keys) const {
   for (const auto& entry : entries_)
     if (std::find(keys.begin(), keys.end(), entry.key) == keys.end())
       yaml_.fail(entry.keyNode, unknownKeyText(entry, keys));
 }
 
-void YamlMap::warnOfOthers(std::initializer_list<std::string_view> keys, std::vector<std::string>& warnings,
+void YamlMap::warnOfOthers(const std::vector<std::string_view>& keys, std::vector<std::string>& warnings,
                            Slips slips) const {
   for (const auto& entry : entries_) {
     if (std::find(keys.begin(), keys.end(), entry.key) != keys.end()) continue;

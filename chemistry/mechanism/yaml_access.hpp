@@ -64,11 +64,11 @@ class YamlMap {
   // The value of a key; InputError at the map's line if it is missing.
   const YAML::Node& at(std::string_view key) const;
   // InputError naming the nearest allowed key if the map has another one.
-  void allowOnly(std::initializer_list<std::string_view> keys) const;
+  void allowOnly(const std::vector<std::string_view>& keys) const;
   // A warning for each other key, which is for another program. One that hardly differs from an allowed key is a slip:
   // an InputError unless slips are warnings too.
   enum class Slips { Refused, Warnings };
-  void warnOfOthers(std::initializer_list<std::string_view> keys, std::vector<std::string>& warnings,
+  void warnOfOthers(const std::vector<std::string_view>& keys, std::vector<std::string>& warnings,
                     Slips slips = Slips::Refused) const;
 
   // The values of optional keys.
@@ -76,7 +76,7 @@ class YamlMap {
   double number(std::string_view key, double standard) const;
 
  private:
-  std::string unknownKeyText(const Entry& entry, std::initializer_list<std::string_view> keys) const;
+  std::string unknownKeyText(const Entry& entry, const std::vector<std::string_view>& keys) const;
 
   const YamlAccess& yaml_;
   YAML::Node node_;

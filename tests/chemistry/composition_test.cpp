@@ -88,6 +88,10 @@ TEST(Composition, SaysWhatIsWrong) {
   EXPECT_THAT(messageOf("H2: 1x, O2: 1"), HasSubstr("expected a number"));
   EXPECT_THAT(messageOf("H2: 2; O2: 1"), HasSubstr("expected a number after 'H2:', found '2;'; commas or blanks part"));
   EXPECT_THAT(messageOf("H2:20%, O2:80%"), HasSubstr("found '20%'; leave out '%'"));
+  EXPECT_THAT(messageOf("H2: 50 %, O2: 50 %"), HasSubstr("found '50 %'; leave out '%'"));
+  EXPECT_THAT(messageOf("H2: 1, O2: 50 %"), HasSubstr("after 'O2:', found '50 %'; leave out '%'"));
+  EXPECT_THAT(messageOf("H2: 0,5, O2: 1"), HasSubstr("after 'H2:', found '0,5'; a number has a decimal point, 0.5"));
+  EXPECT_THAT(messageOf("H2: 1, O2: 0,25"), HasSubstr("found '0,25'; a number has a decimal point, 0.25"));
   EXPECT_THAT(messageOf("H2: 2/3, O2: 1/3"), HasSubstr("found '2/3'; write a decimal number"));
   EXPECT_THAT(messageOf("H2:"), HasSubstr("expected a number after 'H2:'"));
   EXPECT_THAT(messageOf("H2: 2, AIR: 4.76"), HasSubstr("'AIR' is a mixture; name its species"));

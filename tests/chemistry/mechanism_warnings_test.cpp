@@ -9,6 +9,7 @@
 #include "tests/chemistry/mechanism_text.hpp"
 #include "tests/chemistry/table.hpp"
 #include "tests/every_module.hpp"
+#include "tests/messages.hpp"
 
 namespace {
 
@@ -159,6 +160,14 @@ TEST(MechanismWarnings, OwnKeysOfAReaction) {
   for (const std::string foreign : {"Troe: {}", "colliders: []", "data: []", "rate-constants: []"})
     EXPECT_THROW(with(", " + foreign), InputError) << foreign;
   EXPECT_THROW(with(", efficiences: {H: 2}"), InputError) << "a slip";
+  for (const std::string rate :
+       {"third-body-efficiencies: {H: 2}", "collider-efficiencies: {H: 2}", "default-eff: 0", "forward-orders: {H: 2}",
+        "reversible: false", "multiplier: 2", "rate_multiplier: 2", "falloff: Troe", "Troe-parameters: {}",
+        "nonreactant-forward-orders: {}", "reverse-rate-constant: [1, 0, 0]"})
+    EXPECT_THAT(lampblack::test::messageOf<InputError>([&] { with(", " + rate); }),
+                HasSubstr(fmt::format("unknown key '{}', which may be meant to change the rate; the nearest known",
+                                      rate.substr(0, rate.find(':')))));
+  EXPECT_THAT(with(", data-source: here").warnings(), ElementsAre(HasSubstr("'data-source'")));
 }
 
 // A rate that is zero at all pressures, and one mark too many, in YAML.
@@ -174,6 +183,14 @@ TEST(MechanismWarnings, TablesOfZerosAndMarksTooMany) {
   EXPECT_THAT(mechanism.warnings(),
               ElementsAre(HasSubstr(":11: reaction 'H + O2 <=> HO2': the rate constants are zero"),
                           HasSubstr(":11: reaction 'H + O2 <=> HO2' is marked as a duplicate")));
+}
+
+TEST(MechanismWarnings, EachUnknownKeyIsAKindOfItsOwn) {
+  const std::string of = ": reaction 'H + O2 <=> HO2': unknown key ", near = "; the nearest known key is 'note'";
+  EXPECT_THAT(
+      oneOfEachKind(std::vector<std::string>{"a.yaml:1" + of + "'my-tag'" + near, "a.yaml:2" + of + "'f'" + near,
+                                             "a.yaml:3" + of + "'my-tag'" + near}),
+      ElementsAre("a.yaml:1" + of + "'my-tag'" + near + " (1 more like this)", "a.yaml:2" + of + "'f'" + near));
 }
 
 TEST(MechanismWarnings, OneOfEachKind) {
