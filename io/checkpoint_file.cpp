@@ -154,11 +154,11 @@ CheckpointReader::CheckpointReader(MPI_Comm comm, const std::filesystem::path& p
 std::string CheckpointReader::kept(const std::string& name) const {
   std::string place = dataset(name);
   if (!file_->has(place))
-    throw InputError(
-        fmt::format("{}: this checkpoint has no {}: another version of Lampblack wrote it, which kept less of such a "
-                    "run. Begin a new run instead; a flow can begin from the results of the interrupted one "
-                    "(initial.flow.results)",
-                    file_->name(), place));
+    throw InputError(fmt::format(
+        "{}: this checkpoint has no {}: another version of Lampblack wrote it, or the deck has since got an "
+        "option that keeps more. Restart it with the deck it was made with, or begin a new run; a flow can "
+        "begin from the results of the interrupted one (initial.flow.results)",
+        file_->name(), place));
   return place;
 }
 

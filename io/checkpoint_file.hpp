@@ -84,9 +84,9 @@ class CheckpointReader : public StateArchive {
 
  private:
   void ordered(const BlockExchange& exchange, const std::string& name, std::vector<double>& values, int width);
-  // Of the rows of this rank's block of cells, as far as they can be right without the other ranks'; not collective.
   // The dataset of a piece of the state; InputError where the file has none.
   [[nodiscard]] std::string kept(const std::string& name) const;
+  // Of the rows of this rank's block of cells, as far as they can be right without the other ranks'; not collective.
   [[nodiscard]] std::vector<std::int64_t> lengthsOfBlock(const std::string& name, std::int64_t values) const;
 
   MPI_Comm comm_;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "io/table_column.hpp"
 
 namespace lampblack::io {
 namespace {
@@ -70,6 +71,35 @@ std::string quotedWhereNeeded(const std::string& field) {
   return text + '"';
 }
 
+// What a comment above numbers has in square brackets.
+struct Bracketed {
+  bool hasUnits = false, hasOthers = false;  // "[1]" may be a unit or a reference: it counts as neither
+};
+
+Bracketed bracketedIn(std::string_view comment) {
+  Bracketed found;
+  for (std::size_t open = comment.find('['); open != std::string_view::npos; open = comment.find('[', open + 1)) {
+    const std::string_view text = comment.substr(open + 1, comment.find(']', open) - open - 1);
+    if (text == "1") continue;
+    (isUnit(text) ? found.hasUnits : found.hasOthers) = true;
+  }
+  return found;
+}
+
+// Whether a comment has the names of the columns of a row of numbers. With other brackets than units it is prose.
+// InputError where it has units and as many fields as the row has not.
+bool hasNamesOf(std::string_view comment, std::string_view row) {
+  const Bracketed bracketed = bracketedIn(comment);
+  if (bracketed.hasOthers && !bracketed.hasUnits) return false;
+  const std::size_t names = numFields(comment), numbers = numFields(row);
+  if (names != numbers && bracketed.hasUnits && !bracketed.hasOthers)
+    throw InputError(fmt::format(
+        "the comment above the first row, '#{}', names units, but has {} fields, the row {}; part the names "
+        "as the numbers are and put those with blanks in quotes, or write the comment without brackets",
+        comment.substr(0, comment.find_last_not_of(" \t\r\n") + 1), names, numbers));
+  return names == numbers;
+}
+
 }  // namespace
 
 std::string csvLine(const std::vector<std::string>& fields) {
@@ -112,7 +142,7 @@ std::string withNamesOutOfComment(std::string text) {
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first != std::string_view::npos && line[first] != '#') {
       if (comment != std::string::npos && isNumbers(line) &&
-          numFields(std::string_view(text).substr(comment + 1, begin - comment - 1)) == numFields(line))
+          hasNamesOf(std::string_view(text).substr(comment + 1, begin - comment - 1), line))
         text[comment] = ' ';
       break;
     }

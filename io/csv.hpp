@@ -36,7 +36,8 @@ std::string csvTable(const std::vector<Quantity>& columns, std::span<const doubl
 
 // The text of a table, in which the names may stand in a comment right above the first row, as numpy's savetxt and
 // plotting programs write them ("# time [ms],T [K]"): without its '#'. The row has numbers alone then, as many as the
-// comment has fields.
+// comment has fields; a comment whose square brackets are no units is prose. InputError where they are units and the
+// numbers of fields differ.
 [[nodiscard]] std::string withNamesOutOfComment(std::string text);
 
 // Lines that begin with # and a byte-order mark are skipped, as are blanks around a field that does not stand in

@@ -57,14 +57,29 @@ bool lacksColon(std::string_view line) {
          line.find_first_of(" :", text) != std::string_view::npos;
 }
 
+std::size_t indentOf(std::string_view line) {
+  return std::min(line.find_first_not_of(' '), line.size());
+}
+
+std::string_view withoutBlanksBehind(std::string_view line) {
+  while (!line.empty() && (line.back() == ' ' || line.back() == '\r')) line.remove_suffix(1);
+  return line;
+}
+
+// Of a text that began on the line before it: deeper than that, which is no section's.
+bool goesOnAText(std::string_view line, std::string_view lineBefore) {
+  return !lineBefore.empty() && !lineBefore.ends_with(':') && indentOf(line) > indentOf(lineBefore);
+}
+
 }  // namespace
 
-std::string whyNotYaml(std::string_view line, std::string_view lineBefore) {
+std::string whyNotYaml(std::string_view line, std::string_view lineBefore, std::string_view lineBeforeThat) {
   const std::size_t text = line.find_first_not_of(" \t");
   if (line.substr(0, text).find('\t') != std::string_view::npos) return "; YAML indents by blanks, no tabulators";
   constexpr std::size_t none = std::string_view::npos;
-  while (!lineBefore.empty() && (lineBefore.back() == ' ' || lineBefore.back() == '\r')) lineBefore.remove_suffix(1);
-  if (lacksColon(lineBefore))
+  lineBefore = withoutBlanksBehind(lineBefore);
+  if (lacksColon(lineBefore) && indentOf(lineBefore) <= indentOf(line) &&
+      !goesOnAText(lineBefore, withoutBlanksBehind(lineBeforeThat)))
     return fmt::format("; a key ends with a colon and a blank, 'key: value', which the line before lacks: '{}'",
                        shortened(std::string(lineBefore.substr(lineBefore.find_first_not_of(' ')))));
   for (std::size_t colon = line.find(": "), next = none; colon != none; colon = next) {

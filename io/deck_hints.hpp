@@ -22,9 +22,9 @@ std::string didYouMeanOneOf(const std::vector<std::string>& names);
 // quotes.
 std::string asQuotedText(const DeckNode& map);
 
-// Of a text that is not YAML, the line of the mistake and that before it: what to write where a tabulator, an unquoted
-// text or a missing colon is the cause.
-std::string whyNotYaml(std::string_view line, std::string_view lineBefore);
+// Of a text that is not YAML, the line of the mistake and the two before it: what to write where a tabulator, an
+// unquoted text or a missing colon is the cause.
+std::string whyNotYaml(std::string_view line, std::string_view lineBefore, std::string_view lineBeforeThat);
 
 // Where a scalar stands in place of a section: ", such as {end: 1 ms}", the first key that can have it.
 std::string asSection(const DeckSource& source, const DeckSchema::Node& section, const DeckNode& scalar);

@@ -40,7 +40,8 @@ DeckNode parseDeck(const DeckFile& file) {
   } catch (const YAML::Exception& error) {
     StructureError structure = fromYaml(error);
     if (!error.mark.is_null())
-      structure.message += whyNotYaml(lineOf(file.text, error.mark.line + 1), lineOf(file.text, error.mark.line));
+      structure.message += whyNotYaml(lineOf(file.text, error.mark.line + 1), lineOf(file.text, error.mark.line),
+                                      lineOf(file.text, error.mark.line - 1));
     throw fail(structure);
   }
   if (root.kind == DeckNode::Kind::null) throw deckError(source, {}, "", "the deck is empty");

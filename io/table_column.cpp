@@ -7,9 +7,8 @@
 #include "core/errors.hpp"
 
 namespace lampblack::io {
-namespace {
 
-bool isUnit(const std::string& text) {
+bool isUnit(std::string_view text) {
   try {
     static_cast<void>(units::parseUnit(text));
     return true;
@@ -17,8 +16,6 @@ bool isUnit(const std::string& text) {
     return false;
   }
 }
-
-}  // namespace
 
 std::pair<std::string, std::string> nameAndUnit(const std::string& header) {
   const bool isSpecies = header.starts_with("X_");

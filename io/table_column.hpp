@@ -3,12 +3,16 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "core/modules.hpp"
 #include "io/units.hpp"
 
 namespace lampblack::io {
+
+// Whether a text is a unit, "cm/s", as a column has it in brackets.
+[[nodiscard]] bool isUnit(std::string_view text);
 
 // "velocity [cm/s]": the name and the unit, which is empty where there is none. The blank may be missing but behind the
 // name of a species, "X_CH2[S]"; and a unit may stand in round brackets where nothing but a unit can be meant:

@@ -202,7 +202,8 @@ std::string numberAsWrittenHere(std::string_view behind) {
   if ((first == '_' || first == '\'' || first == '.') && digitAt(1)) return "; the digits of a number stand together";
   if (isDigit(first)) return "; the digits of a number stand together";
   const bool isExponent = first == 'd' || first == 'D' || first == 'e' || first == 'E';
-  if (isExponent && (digitAt(1) || ((behind[1] == '-' || behind[1] == '+') && digitAt(2)))) return "; write 1e-3";
+  if (isExponent && (digitAt(1) || (behind.size() > 1 && (behind[1] == '-' || behind[1] == '+') && digitAt(2))))
+    return "; write 1e-3";
   if (behind.find("\u2212") != std::string_view::npos || behind.find("\u2013") != std::string_view::npos)
     return "; write the minus as '-', of the keyboard";
   if (behind.find("\u00a0") != std::string_view::npos || behind.find("\u202f") != std::string_view::npos)

@@ -64,8 +64,8 @@ void addTemperatureProfileKeys(DeckSchema& schema, const std::string& fileDoc) {
                 "Temperatures of the gas at the points.");
   keys.text("file", rules().optional(),
             "CSV file with the points, in place of lists, of two columns, " + fileDoc +
-                " and temperature in K; a first line of names may say other units, 'z [cm],T [degC]', and lines that "
-                "begin with # are skipped. Relative to the deck.");
+                " and temperature in K; a first line of names, in a comment or not, may say other units, 'z [cm],T "
+                "[degC]'; other lines that begin with # are skipped. Relative to the deck.");
   schema.add(keys.schema());
 }
 

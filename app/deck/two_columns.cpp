@@ -83,7 +83,13 @@ void refuseUnitInName(const std::string& name, const std::string& unit, const un
 TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimension& pointDimension,
                           const units::Dimension& valueDimension, const std::string& example,
                           const std::function<void(double)>& check) {
-  std::istringstream file(withNamesOutOfComment(readTextFile(path, "a table of two columns")));
+  std::string text = readTextFile(path, "a table of two columns");
+  try {
+    text = withNamesOutOfComment(text);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+  std::istringstream file(std::move(text));
   std::vector<double> points, values;
   bool first = true;
   std::size_t number = 0;

@@ -215,15 +215,15 @@ TEST(CheckpointRows, ThatAFileDoesNotHaveAreRefusedByAllRanks) {
   Rows rows(numbers.cells.size());
   const auto refusal = [&](const std::function<void()>& load) { return test::messageOf<InputError>(load); };
   EXPECT_THAT(refusal([&] { reader.rows("after", rows); }), testing::HasSubstr("/state/after is no list of values"));
-  // What another version has not kept is told as that, whatever it is.
+  // What another version, or another deck, has not kept is told as that, whatever it is.
   std::vector<double> values(numbers.cells.size());
   for (const std::function<void()>& load : std::vector<std::function<void()>>{
            [&] { reader.rows("others", rows); }, [&] { reader.cells("others", values, 1); },
            [&] { reader.sums("others", values); }, [&] { reader.shared("others", values); },
            [&] { static_cast<void>(reader.texts("others")); }})
     EXPECT_THAT(refusal(load),
-                testing::ContainsRegex("rows.h5: this checkpoint has no /state/others: another version .* "
-                                       "\\(initial.flow.results\\)"));
+                testing::ContainsRegex("rows.h5: this checkpoint has no /state/others: another version .*, or the deck "
+                                       "has since got an option .* \\(initial.flow.results\\)"));
 }
 
 // A disk (here: a limit on the file's size) that cannot take the values: all ranks say so, and nothing is left.

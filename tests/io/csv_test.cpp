@@ -9,8 +9,10 @@
 #include <sstream>
 #include <string>
 
+#include "core/errors.hpp"
 #include "core/modules.hpp"
 #include "io/history.hpp"
+#include "tests/messages.hpp"
 #include "tests/scratch.hpp"
 
 namespace lampblack::io {
@@ -58,6 +60,14 @@ TEST(Csv, NamesMayStandInACommentAboveTheFirstRow) {
     EXPECT_EQ(withNamesOutOfComment(text), text);
   EXPECT_EQ(withNamesOutOfComment("# z [cm]  T [K]\n0 \t300\n"), "  z [cm]  T [K]\n0 \t300\n");
   EXPECT_EQ(withNamesOutOfComment("# height above it\n0 300\n"), "# height above it\n0 300\n");
+  for (const std::string prose : {"# Abid et al., Combust. Flame 155 [2008]\n0,900\n", "# Abid et al. [1]\n0,900\n"})
+    EXPECT_EQ(withNamesOutOfComment(prose), prose);
+  const auto refusal = [](const std::string& text) {
+    return test::messageOf<InputError>([&] { static_cast<void>(withNamesOutOfComment(text)); });
+  };
+  EXPECT_THAT(refusal("# height above burner [cm]  T [degC]\n0 900\n"),
+              testing::HasSubstr("'# height above burner [cm]  T [degC]', names units, but has 4 fields, the row 2"));
+  EXPECT_THAT(refusal("# t [s], T [K], p [bar]\r\n0,900\r\n"), testing::HasSubstr("has 3 fields, the row 2"));
 }
 
 TEST(Csv, TheHeaderOfAHistoryHasAsManyFieldsAsItsRows) {

@@ -77,6 +77,12 @@ TEST(DeckErrors, WhatANewcomerWritesIsAnsweredByWhatToWrite) {
   for (const std::string slip : {"time 1 ms", "time:1 ms"})
     EXPECT_THAT(refused("gas:\n" + slip + "\nwall: {temperature: 300 K}\n"),
                 HasSubstr("'key: value', which the line before lacks: '" + slip + "'"));
+  EXPECT_THAT(refused("gas:\n  pressure 1 atm\n  temperature: 300 K\n"),
+              HasSubstr("which the line before lacks: 'pressure 1 atm'"));
+  for (const std::string goesOn :
+       {"title: a long\n  text that goes on\n bad: [\n", "title: a long\n  text that goes on\n  bad: [\n",
+        "gas:\n    text that goes on\n  bad: [\n"})
+    EXPECT_THAT(refused(goesOn), AllOf(HasSubstr("not YAML"), Not(HasSubstr("the line before lacks")))) << goesOn;
   EXPECT_THAT(refused("gas: {temperature: 300 K}\n  wall: x\n"), Not(HasSubstr("the line before lacks")));
   EXPECT_THAT(refused("reactor: {type: PSR}\n"), HasSubstr("found 'PSR'; did you mean 'stirred'?"));
   EXPECT_THAT(refused("time: {end: 1,5 ms}\n"), HasSubstr("unknown key '5 ms'; a number has a decimal point, 1.5."));

@@ -88,6 +88,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"3 slpm", units::massFlow, "give the mass flow"}, Refused{"nan", units::length, "not a finite number"},
         Refused{"inf m", units::length, "not a finite"}, Refused{"-inf", units::length, "not a finite"},
         Refused{"1e999 m", units::length, "not a finite"}, Refused{"1e308 km", units::length, "not a finite"},
+        Refused{"1 e", units::length, "'e' is not a unit known here"}, Refused{"1d", units::time, "found '1d'"},
         Refused{"1,5 ms", units::time, "; a number has a decimal point, 1.5"},
         Refused{"1.013.25 bar", units::pressure, "; the digits of a number stand together"},
         Refused{"101 325 Pa", units::pressure, "; the digits of a number stand together"},

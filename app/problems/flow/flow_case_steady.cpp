@@ -98,7 +98,7 @@ DeckKeys<TimeControl::Search> searchKeys() {
                "become quiet (50 to 300; at least 10 in a gas without reactions). With 20 most flames are found "
                "in a third to a tenth of the time; a "
                "flame that can stand in two ways may be found in the other. From the steady state of a coarser mesh at "
-               "most 50 are taken.");
+               "most 50 of a number given here are taken.");
   keys.boolean("light", &Search::lights, rules(),
                "Lights the flow where nothing burns once the steps in time are over, or in the steady state that "
                "iterations find, though the start had gas of more than 1000 K: each cell whose mixture burns to "

@@ -78,10 +78,11 @@ void addVolumeKeys(DeckSchema& schema) {
                 "Times of the points, rising.");
   keys.quantity("volume", units::volume, rules().list().optional().onlyWith(lawKey, {"table"}),
                 "Volumes at the points; their ratios count.");
-  keys.text("file", rules().optional().onlyWith(lawKey, {"table"}),
-            "CSV file with the points, in place of lists, of two columns, time in s and volume in any unit; a first "
-            "line of names may say other units, 'time [ms],volume [cm^3]', and lines that begin with # are skipped. "
-            "Relative to the deck. Between points a monotone cubic, constant beyond them.");
+  keys.text(
+      "file", rules().optional().onlyWith(lawKey, {"table"}),
+      "CSV file with the points, in place of lists, of two columns, time in s and volume in any unit; a first "
+      "line of names, in a comment or not, may say other units, 'time [ms],volume [cm^3]'; other lines that begin "
+      "with # are skipped. Relative to the deck. Between points a monotone cubic, constant beyond them.");
   keys.text("formula", rules().optional().onlyWith(lawKey, {"formula"}),
             "The volume as an expression of t in s, '1 - 0.9*min(t/0.03, 1)'; its ratios count.");
   keys.quantity("bore", units::length, rules().optional().above(0).onlyWith(lawKey, {piston}),
