@@ -64,6 +64,10 @@ void placesGoByColumnsAndHeights(bool isFloor) {
   other.vertices[0] = {0.0, 3.0};
   EXPECT_DOUBLE_EQ(BoxPlaces(mesh).apart(BoxPlaces(other)), isFloor ? 0.5 : 1.0);
   EXPECT_DOUBLE_EQ(BoxPlaces(other).apart(BoxPlaces(mesh)), 0.0);
+  // Behind the end of the other box there is nothing to compare with.
+  MeshSpec shorter = mesh;
+  shorter.vertices[0] = {0.0, 1.0};
+  EXPECT_DOUBLE_EQ(BoxPlaces(mesh).apart(BoxPlaces(shorter)), 0.0);
   vertices.resize(15);
   EXPECT_THROW((BoxPlaces(vertices)), InputError);
 }
@@ -99,7 +103,8 @@ TEST(BentBoxStart, IsTheCoarserMeshCellByCell) {
   EXPECT_GT(fastest, 0.02);
   const auto refused = [&](const std::vector<std::string>& overrides) {
     FlowCase other = readFlowCase(overAHill(overrides));
-    return test::messageOf<InputError>([&] { flowcase::readEarlierFlow(file, {}, other); });
+    return test::messageOf<InputError>(
+        [&] { flowcase::readEarlierFlow(file, {}, other, flowcase::EarlierDeck::AnyOther); });
   };
   EXPECT_THAT(refused({"mesh.floor.formula='0.01+0.02*sin(pi*x/0.4)^2'"}), HasSubstr("another floor or ceiling"));
   // Also where they are apart on the columns of one of the meshes only.
@@ -109,8 +114,27 @@ TEST(BentBoxStart, IsTheCoarserMeshCellByCell) {
   EXPECT_THAT(refused({"mesh.x=[{to: 50 cm, cells: 8}]"}), HasSubstr("reaches from"));
   FlowCase even = readFlowCase(overAHill({}));
   even.mesh.map = nullptr;
-  EXPECT_THAT(test::messageOf<InputError>([&] { flowcase::readEarlierFlow(file, {}, even); }),
-              HasSubstr("of a box with a floor"));
+  EXPECT_THAT(
+      test::messageOf<InputError>([&] { flowcase::readEarlierFlow(file, {}, even, flowcase::EarlierDeck::AnyOther); }),
+      HasSubstr("of a box with a floor"));
+}
+
+// A step of the floor within a column of the coarser mesh, which has half of its rise where the finer one has all.
+TEST(BentBoxStart, IsOfTheSameBoxHoweverTheFloorRunsBetweenColumns) {
+  const test::SharedScratchFolder scratch;
+  const Deck deck = overAHill({"mesh.refinement=2", "mesh.floor.formula='0.015*(1+tanh((x-0.2125)/0.005))'"});
+  const FlowCase fine =
+      caseFromCoarserMeshes(MPI_COMM_WORLD, deck, 1, RunFolder::prepare(scratch.path() / "step", false, MPI_COMM_WORLD),
+                            {"test", "none", deck.resolved(), "now"});
+  EXPECT_TRUE(fine.time.search->coarser.front().isStart);
+  EXPECT_NEAR(fine.initialFields.gas.temperature(fine.mesh.map({0.225, 0.05, 0.0}), 0.0), 300.0, 1e-6);
+  // Of another deck the same two boxes do not meet.
+  FlowCase other = readFlowCase(deck);
+  EXPECT_THAT(test::messageOf<InputError>([&] {
+                flowcase::readEarlierFlow(scratch.path() / "step/coarser_1/results.h5", {}, other,
+                                          flowcase::EarlierDeck::AnyOther);
+              }),
+              HasSubstr("another floor or ceiling"));
 }
 
 }  // namespace

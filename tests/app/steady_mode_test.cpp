@@ -442,7 +442,9 @@ TEST(SteadyMode, StartsFromACoarserMeshThatBurns) {
     const Deck deck = hydrogenBesideAir(settings);
     return caseFromCoarserMeshes(MPI_COMM_WORLD, deck, 1, folder, {"test", "none", deck.resolved(), "now"});
   };
-  const FlowCase burns = seek("burns", {"mesh.refinement=2", "time.steady.steps=60"});
+  const std::vector<std::string> twice{"mesh.refinement=2", "time.steady.steps=60", "time.steady.coarser_meshes=1",
+                                       "checkpoint={steps: 45}"};
+  const FlowCase burns = seek("burns", twice);
   ASSERT_EQ(burns.time.search->coarser.size(), 1U);
   const TimeControl::Search::Coarser& coarser = burns.time.search->coarser.front();
   EXPECT_EQ(coarser.cells, 64);
@@ -454,6 +456,19 @@ TEST(SteadyMode, StartsFromACoarserMeshThatBurns) {
   const Hdf5Reader results(scratch.path() / "burns/coarser_1/results.h5");
   const Vector3 firstCentre{5e-4, 7.5e-4, 0.0};
   EXPECT_NEAR(burns.initialFields.gas.temperature(firstCentre, 0.0), test::lastOf(results, "temperature")[0], 1e-6);
+  // A run that goes on from a checkpoint among the steps takes no more of them.
+  FlowLoop whole(MPI_COMM_WORLD, burns);
+  whole.run(RunFolder::prepare(scratch.path() / "whole", false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
+  EXPECT_EQ(whole.searchAsCoarser().steps, 50);
+  FlowLoop restarted(MPI_COMM_WORLD, readFlowCase(hydrogenBesideAir(twice)));
+  restarted.load(newestCheckpoint(MPI_COMM_WORLD, scratch.path() / "whole"));
+  EXPECT_LT(restarted.searchAsCoarser().steps, 50);
+  restarted.run(RunFolder::prepare(scratch.path() / "restarted", false, MPI_COMM_WORLD), {"test", "none", {}, "now"});
+  EXPECT_EQ(restarted.searchAsCoarser().steps, 50);
+  EXPECT_EQ(restarted.searchAsCoarser().iterations, whole.searchAsCoarser().iterations);
+  RunRecord record;
+  restarted.report(1.0, record);
+  EXPECT_THAT(record.resultsJson, ContainsRegex("\"coarser_meshes\": \\[[^]]*\"cells\": 64"));
   // Nothing burns there: the start is the deck's own.
   const FlowCase dark = seek("dark", {"mesh.refinement=2", "time.steady.light=false"});
   EXPECT_FALSE(dark.time.search->coarser.front().isStart);

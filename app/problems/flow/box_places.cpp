@@ -58,6 +58,7 @@ std::array<double, 2> BoxPlaces::middle(double x, double y) const {
 double BoxPlaces::apart(const BoxPlaces& other) const {
   double most = 0.0;
   for (std::size_t i = 0; i < columns_.size(); ++i) {
+    if (columns_[i] < other.columns_.front() || columns_[i] > other.columns_.back()) continue;
     const auto [low, high] = other.heights(columns_[i]);
     most = std::max({most, std::abs(low_[i] - low), std::abs(high_[i] - high)});
   }

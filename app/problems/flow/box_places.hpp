@@ -22,7 +22,8 @@ class BoxPlaces {
   [[nodiscard]] std::array<double, 2> of(double x, double y) const;
   // The middle of the cell of the box in which a place lies, so too.
   [[nodiscard]] std::array<double, 2> middle(double x, double y) const;
-  // m, the largest distance between floors and between ceilings of this and of another box, at this one's columns.
+  // m, the largest distance between floors and between ceilings of this and of another box, at this one's columns
+  // as far as the other reaches.
   [[nodiscard]] double apart(const BoxPlaces& other) const;
   // m, by how much the floor or the ceiling rises and falls, whichever does more.
   [[nodiscard]] double rise() const;

@@ -20,19 +20,21 @@ namespace {
 // Steps in time that a start from a steady state needs at most: it has but to follow the finer cells.
 constexpr int mostStepsFromSteady = 50;
 
-// What a run on a coarser mesh left; no results: the start is the deck's own.
-struct Earlier {
-  std::filesystem::path results;
-  bool isSteady = false;
-};
+using Search = TimeControl::Search;
 
-// The case of a deck that starts from there.
-FlowCase caseFrom(const Deck& deck, const Earlier& earlier) {
+// Of what came of the search on coarser meshes: the finest that is a start.
+void limitSteps(Search& search, const std::vector<Search::Coarser>& coarser) {
+  const auto start = std::find_if(coarser.rbegin(), coarser.rend(), [](const auto& mesh) { return mesh.isStart; });
+  // 0: as many as they take
+  if (start != coarser.rend() && start->isSteady) search.steps = std::min(search.steps, mostStepsFromSteady);
+}
+
+// The case of a deck that starts from results on a coarser mesh; none: the start is the deck's own.
+FlowCase caseFrom(const Deck& deck, const std::filesystem::path& results, const std::vector<Search::Coarser>& coarser) {
   FlowCase flowCase = readFlowCase(deck);
-  if (earlier.results.empty()) return flowCase;
-  flowCase.initialFields = flowcase::readEarlierFlow(earlier.results, {}, flowCase);
-  int& steps = flowCase.time.search->steps;  // 0: as many as they take
-  if (earlier.isSteady) steps = std::min(steps, mostStepsFromSteady);
+  if (results.empty()) return flowCase;
+  flowCase.initialFields = flowcase::readEarlierFlow(results, {}, flowCase, flowcase::EarlierDeck::ThisOne);
+  limitSteps(*flowCase.time.search, coarser);
   return flowCase;
 }
 
@@ -42,15 +44,15 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, cons
                                const RunInfo& info) {
   int rank = 0;
   MPI_Comm_rank(comm, &rank);
-  Earlier earlier;
-  std::vector<TimeControl::Search::Coarser> told;
+  std::filesystem::path earlier;
+  std::vector<Search::Coarser> told;
   FlowCase flowCase;
   for (int level = meshes; level >= 1; --level) {
     const auto read = [&] {
       const std::string refinement =
           fmt::format("mesh.refinement={}", deck.number("mesh.refinement") * std::ldexp(1.0, -level));
       flowCase = caseFrom(Deck::parse(deck.resolved(), deck.path(), {refinement, "output.species=[all]"}, flowSchema()),
-                          earlier);
+                          earlier, told);
       flowCase.trajectories.reset();
       flowCase.time.search->stability.reset();
       flowCase.time.search->branch.reset();
@@ -80,13 +82,29 @@ FlowCase caseFromCoarserMeshes(MPI_Comm comm, const Deck& deck, int meshes, cons
     told.push_back(loop.searchAsCoarser());
     // A flame that does not stand on a coarse mesh may stand on the next; gas that is cold would stay so.
     if (told.back().isStart)
-      earlier = {found, told.back().isSteady};
+      earlier = found;
     else
       printWarnings({"nothing burns on the coarser mesh; the next one does not start from it"});
   }
-  collectively(comm, [&] { flowCase = caseFrom(deck, earlier); });
+  collectively(comm, [&] { flowCase = caseFrom(deck, earlier, told); });
   flowCase.time.search->coarser = told;
   return flowCase;
+}
+
+void saveOrLoadCoarserMeshes(TimeControl::Search& search, StateArchive& archive) {
+  constexpr std::size_t width = 6;
+  std::vector<double> numbers;
+  for (const Search::Coarser& mesh : search.coarser)
+    numbers.insert(numbers.end(),
+                   {static_cast<double>(mesh.cells), mesh.isSteady ? 1.0 : 0.0, mesh.isStart ? 1.0 : 0.0,
+                    static_cast<double>(mesh.steps), static_cast<double>(mesh.iterations), mesh.processorTime});
+  archive.shared("coarser_meshes", numbers);
+  if (!archive.loading()) return;
+  search.coarser.clear();
+  for (std::size_t i = 0; i + width <= numbers.size(); i += width)
+    search.coarser.push_back({static_cast<std::int64_t>(numbers[i]), numbers[i + 1] != 0.0, numbers[i + 2] != 0.0,
+                              static_cast<int>(numbers[i + 3]), static_cast<int>(numbers[i + 4]), numbers[i + 5]});
+  limitSteps(search, search.coarser);
 }
 
 }  // namespace lampblack::app

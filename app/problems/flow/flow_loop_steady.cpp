@@ -7,6 +7,7 @@
 #include <limits>
 #include <numeric>
 
+#include "app/problems/flow/coarser_meshes.hpp"
 #include "app/problems/flow/flow_loop.hpp"
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
@@ -202,6 +203,10 @@ void FlowLoop::giveUp(Outputs& outputs) {
 }
 
 void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
+  if (case_.time.search->coarserMeshes > 0) {
+    saveOrLoadCoarserMeshes(*case_.time.search, archive);
+    if (archive.loading()) search_.emplace(*case_.time.search);
+  }
   search_->saveOrLoad(archive);
   if (rounds_) {
     rounds_->saveOrLoad(archive);

@@ -71,7 +71,7 @@ struct EarlierPlaces {
   std::optional<BoxPlaces> box;            // of this mesh, where it is bent
 };
 
-EarlierPlaces placesOf(const Hdf5Reader& results, const MeshSpec& mesh) {
+EarlierPlaces placesOf(const Hdf5Reader& results, const MeshSpec& mesh, EarlierDeck deck) {
   const std::vector<double> centres = results.numbers("/mesh/cellCentre");
   EarlierPlaces places{.cells = {component(centres, 3, 0), component(centres, 3, 1)}, .box = std::nullopt};
   if (!mesh.map) return places;
@@ -79,7 +79,7 @@ EarlierPlaces placesOf(const Hdf5Reader& results, const MeshSpec& mesh) {
   places.box.emplace(mesh);
   const double apart = std::max(earlier.apart(*places.box), places.box->apart(earlier));
   const double most = mostApart * places.box->rise();
-  if (apart > most)
+  if (deck == EarlierDeck::AnyOther && apart > most)
     throw InputError(
         fmt::format("{} has another floor or ceiling than this mesh: {:.3g} m apart, expected {:.3g} m at "
                     "most",
@@ -273,7 +273,8 @@ void addInitialFlowKeys(DeckSchema& schema) {
   schema.add(keys.schema());
 }
 
-InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase) {
+InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase,
+                              EarlierDeck earlierDeck) {
   if (flowCase.meshFile || flowCase.dimension != 2)
     throw InputError("an earlier run is laid over plane boxes only, bent or not");
   const Hdf5Reader results(file);
@@ -295,7 +296,7 @@ InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<d
   if (swirls) numbers.columns.push_back(results.numbers(step + "/" + swirl));
   const std::vector<double> velocity = results.numbers(step + "/velocity");
   for (std::size_t axis = 0; axis < 2; ++axis) numbers.columns.push_back(component(velocity, 3, axis));
-  EarlierPlaces places = placesOf(results, flowCase.mesh);
+  EarlierPlaces places = placesOf(results, flowCase.mesh, earlierDeck);
   numbers.places = std::move(places.cells);
   numbers.names.resize(numbers.columns.size());
   fillHoles(numbers);
@@ -328,7 +329,8 @@ InitialFields readInitialFlow(const Deck& deck, FlowCase& flowCase) {
       file /= "results.h5";
       if (!std::filesystem::exists(file) && std::filesystem::exists(part)) file = part;
     }
-    InitialFields fields = readEarlierFlow(file, deck.optionalQuantity(section + ".time"), flowCase);
+    InitialFields fields =
+        readEarlierFlow(file, deck.optionalQuantity(section + ".time"), flowCase, EarlierDeck::AnyOther);
     fields.isLit = deck.boolean(section + ".light");
     return fields;
   });

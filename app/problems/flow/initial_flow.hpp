@@ -22,7 +22,12 @@ void addInitialFlowKeys(DeckSchema& schema);
 // a few percent of the mass of a cell would be left out.
 InitialFields readInitialFlow(const Deck& deck, FlowCase& flowCase);
 
+// Of which deck the earlier run is: of this one on a coarser mesh, so that a bent box is the same however its floor
+// runs between the columns of the coarser, or of any other, whose floor and ceiling are compared.
+enum class EarlierDeck { ThisOne, AnyOther };
+
 // The same of the results of a run, or the part of them that it wrote; `time` in s, nothing: the last output.
-InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase);
+InitialFields readEarlierFlow(const std::filesystem::path& file, std::optional<double> time, FlowCase& flowCase,
+                              EarlierDeck earlierDeck);
 
 }  // namespace lampblack::app::flowcase
