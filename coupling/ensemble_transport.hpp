@@ -122,7 +122,9 @@ class EnsembleTransport {
   [[nodiscard]] double sumChances(const Size& size, const std::vector<Side>& sides, SideValues& upTo) const;
   void boundChances(const std::vector<Side>& sides, std::span<double, nodes> bounds) const;
   void drawLeaving(int cell, const std::vector<Side>& sides, RandomStream& random, Rows& population, Rows& arrived);
-  void drawPieces(Draw& draw, double* row);
+  // Whether the one at this place of a cell (Content) may go in pieces.
+  [[nodiscard]] bool goesInPieces(std::uint32_t place) const;
+  void drawPieces(Draw& draw, double* row, bool inPieces);
   void measureHits(const Rows& population, const Rows& arrived);
   void drawHits(Draw& draw, double* row, const Size& size, std::span<const Hit> hits);
   void leave(Draw& draw, double* row, int ofClass, const SideValues& pieces, double of);

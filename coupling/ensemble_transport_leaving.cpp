@@ -26,6 +26,12 @@ std::size_t sideAt(double point, std::span<const double> upTo) {
 
 }  // namespace
 
+// A population of equal numbers has no place for what would stay of one; those that have arrived are still apart from
+// it.
+bool EnsembleTransport::goesInPieces(std::uint32_t place) const {
+  return Content::hasArrived(place) || !options_.rows.haveEqualNumbers;
+}
+
 // Puts the particles of a cell in order of size.
 void EnsembleTransport::takeStock(int cell, std::span<const double> population, std::span<const double> arrived) {
   constexpr std::uint32_t singles = nodes;
@@ -62,7 +68,8 @@ void EnsembleTransport::takeStock(int cell, std::span<const double> population, 
   // Pieces of a particle are places one after the other.
   const double whole = content.whole();
   for (Stock& one : stock_) {
-    if (one.number > whole && one.node != singles) one.pieces = static_cast<std::uint32_t>(piecesIn(one.number, whole));
+    if (one.number > whole && one.node != singles && goesInPieces(one.place))
+      one.pieces = static_cast<std::uint32_t>(piecesIn(one.number, whole));
     content.upTo[one.node] += one.pieces;
   }
   std::array<std::uint32_t, nodes + 1> begins{};
@@ -136,7 +143,9 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
     if (draw.isLimited[k]) limited_ += content.counts[k];
   boundChances(sides, draw.bounds);
   const std::size_t end = arrived.size();  // before any leaves
-  const auto rowAt = [&](std::uint32_t place) { return &((place & 1U) != 0 ? arrived : population)[place >> 1U]; };
+  const auto rowAt = [&](std::uint32_t place) {
+    return &(Content::hasArrived(place) ? arrived : population)[place >> 1U];
+  };
   // Teeth at one another's distance of one along the line of the bounds of all pieces, one after the other.
   hits_.clear();
   double tooth = random.uniform();
@@ -160,8 +169,10 @@ void EnsembleTransport::drawLeaving(int cell, const std::vector<Side>& sides, Ra
     double* row = rowAt(place);
     drawHits(draw, row, sizeOf(volumes_[hit], diameters_[hit], row[2]), std::span(hits_).subspan(hit, next - hit));
   }
-  for (; first < content.order + content.upTo[nodes]; ++first) drawPieces(draw, rowAt(order_[first]));
-  for (std::size_t i = content.before; i < end; i += options_.rows.lengthOf(&arrived[i])) drawPieces(draw, &arrived[i]);
+  for (; first < content.order + content.upTo[nodes]; ++first)
+    drawPieces(draw, rowAt(order_[first]), goesInPieces(order_[first]));
+  for (std::size_t i = content.before; i < end; i += options_.rows.lengthOf(&arrived[i]))
+    drawPieces(draw, &arrived[i], true);
 }
 
 // Of those that are hit: volumes, and the diameters of spheres of these (nodes have no others than normal numbers).
@@ -170,7 +181,7 @@ void EnsembleTransport::measureHits(const Rows& population, const Rows& arrived)
   diameters_.resize(hits_.size());
   for (std::size_t k = 0; k < hits_.size(); ++k) {
     const std::uint32_t place = order_[hits_[k].entry];
-    volumes_[k] = volumeOf(&((place & 1U) != 0 ? arrived : population)[place >> 1U]);
+    volumes_[k] = volumeOf(&(Content::hasArrived(place) ? arrived : population)[place >> 1U]);
   }
   for (std::size_t k = 0; k < hits_.size(); ++k) diameters_[k] = normalCubeRoot(6 * volumes_[k] / constants::pi);
 }
@@ -200,10 +211,10 @@ void EnsembleTransport::drawHits(Draw& draw, double* row, const Size& size, std:
 }
 
 // One of any size that may stand for any number. Most stay, which their bound tells.
-void EnsembleTransport::drawPieces(Draw& draw, double* row) {
+void EnsembleTransport::drawPieces(Draw& draw, double* row, bool inPieces) {
   const double volume = volumeOf(row);
   if (!(row[packedNumberAt] > 0.0) || lengths_[classOf(volume)] == 0.0) return;
-  const double pieces = piecesIn(row[packedNumberAt], draw.whole);
+  const double pieces = inPieces ? piecesIn(row[packedNumberAt], draw.whole) : 1.0;
   const int node = exponentOf(volume) - smallest;
   if (pieces == 1.0 && node >= 0 && node < static_cast<int>(nodes)) {
     double drawn = draw.point;

@@ -120,6 +120,7 @@ struct EnsembleTransport::Content {
   [[nodiscard]] static std::uint32_t placeOf(std::size_t at, bool hasArrived) {
     return static_cast<std::uint32_t>(2 * at + (hasArrived ? 1 : 0));
   }
+  [[nodiscard]] static bool hasArrived(std::uint32_t place) { return (place & 1U) != 0; }
   // 1/m3, that a numerical particle may stand for that goes as one.
   [[nodiscard]] double whole() const { return 2.0 * number / static_cast<double>(count); }
   // `change`: of how many numerical ones there are.

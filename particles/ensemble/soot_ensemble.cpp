@@ -36,7 +36,7 @@ SootEnsemble::SootEnsemble(const Mechanism& mechanism, EnsembleOptions options, 
     : StochasticPopulation({"soot",
                             indicesOfSootSpecies(mechanism, options.soot),
                             {"C", "H"},
-                            {sootAggregate(options), {packedHead, false}}}),
+                            {sootAggregate(options), {packedHead, false, options.method == EnsembleMethod::dsmc}}}),
       ensemble_(makeEnsemble(std::move(options))),
       processes_(sootProcesses(ensemble_->options().soot)) {
   if (!(start.number > 0)) return;

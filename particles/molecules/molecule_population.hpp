@@ -159,6 +159,6 @@ class MoleculePopulation {
 
 // How particles of molecules stand in a packed population (packed_molecules.hpp).
 inline constexpr ParticleRows moleculeRows{
-    3 + 2 + 1 + 3 + 3 + sizeof(MoleculeExchange) / sizeof(double) + std::size(populationCounters) + 2, true};
+    3 + 2 + 1 + 3 + 3 + sizeof(MoleculeExchange) / sizeof(double) + std::size(populationCounters) + 2, true, true};
 
 }  // namespace lampblack::particles

@@ -34,6 +34,7 @@ inline constexpr std::size_t packedOwnerAt = 3;
 struct ParticleRows {
   std::size_t head = 0;
   bool haveLengths = false;
+  bool haveEqualNumbers = false;  // all of a population: its numerical particles have one weight
 
   [[nodiscard]] std::size_t lengthOf(const double* row) const {
     return haveLengths ? static_cast<std::size_t>(row[packedParticle]) : packedParticle;

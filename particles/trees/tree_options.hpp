@@ -84,7 +84,7 @@ struct TreeTotals {
 };
 
 // How trees stand in a packed population (packed_tree.hpp).
-inline constexpr ParticleRows treeRows{21 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters),
+inline constexpr ParticleRows treeRows{21 + sizeof(TreeExchange) / sizeof(double) + std::size(populationCounters), true,
                                        true};
 
 // Spheres that a population begins with: `number` of them (1/m3), each of these units; or with a distribution of

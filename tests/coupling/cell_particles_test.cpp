@@ -4,7 +4,9 @@
 
 #include "core/errors.hpp"
 #include "core/state_backup.hpp"
+#include "particles/ensemble/soot_ensemble.hpp"
 #include "particles/models/element_enthalpies.hpp"
+#include "particles/molecules/molecule_population.hpp"
 #include "particles/trees/tree_ensemble.hpp"
 #include "particles/trees/tree_population.hpp"
 #include "tests/coupling/cell_vessel.hpp"
@@ -241,6 +243,18 @@ TEST(TreesInCells, OfSootKeepCarbonHydrogenAndOxygen) {
     EXPECT_GT(inParticles, 1e-6 * before[e]) << held[e];
   }
   EXPECT_GT(v.particles->population().absorption(1500.0, 1e-6), 0.0);
+}
+
+// What moves particles leaves none in part of a population of one weight.
+TEST(CellParticles, SayWhereAllStandForAsMany) {
+  EXPECT_TRUE(inCellsOf(teos().mechanism, trees())->rows().haveEqualNumbers);
+  EXPECT_TRUE(moleculeRows.haveEqualNumbers);
+  for (const auto method : {EnsembleMethod::dsmc, EnsembleMethod::sammc, EnsembleMethod::swa, EnsembleMethod::pairs}) {
+    EnsembleOptions o;
+    o.method = method;
+    o.soot.pah = {{"A2", 10, 8, 2e-3}};
+    EXPECT_EQ(SootEnsemble(ethylene().mechanism, o).rows().haveEqualNumbers, method == EnsembleMethod::dsmc);
+  }
 }
 
 TEST(TreesInCells, AreRefusedWhereTheirHeatIsNotKnown) {

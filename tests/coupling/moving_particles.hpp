@@ -68,8 +68,9 @@ struct Moving {
     for (std::size_t c = 0; c < populations.size(); ++c)
       populations[c].insert(populations[c].end(), arrived[c].begin(), arrived[c].end());
   }
-  [[nodiscard]] EnsembleTransport transport(bool diffusion, std::uint64_t seed, double thermophoresis = 0.55) const {
-    return {box.context, {{sootDensity, true}, thermophoresis, diffusion, true, seed}};
+  [[nodiscard]] EnsembleTransport transport(bool diffusion, std::uint64_t seed, double thermophoresis = 0.55,
+                                            ParticleRows rows = {packedHead}) const {
+    return {box.context, {{sootDensity, true}, thermophoresis, diffusion, true, seed, rows}};
   }
   // Sum over the particles of a cell of number times diameter^order, per m3.
   [[nodiscard]] double moment(int cell, double order) const {
