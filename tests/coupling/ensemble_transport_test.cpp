@@ -264,6 +264,19 @@ TEST(EnsembleTransport, LeavesPopulationsOfOneWeightTheirs) {
       numbers.add(values);
     }
     EXPECT_EQ(sumOverRanks(static_cast<double>(inPart)), 0.0) << d << " m";
+    std::int64_t pieces = 0;  // of one that has come
+    Moving m(8, vortex);
+    m.fill(0, hill);
+    for (auto& rows : m.arrived)
+      for (int k = 0; k <= light; ++k) packDoubles(rows, GivenParticle{massOf(d), 0.0, 1.0, k == 0 ? 1e17 : 1e12});
+    EnsembleTransport transport = m.transport(false, 7, 0.55, {packedHead, false, true});
+    transport.advance({m.state, m.drift, m.density, m.properties}, 2e-4, 0, EnsembleTransport::Half::First,
+                      m.populations, m.arrived);
+    for (const auto& rows : m.arrived)
+      ParticleRows{}.forEach(rows, [&](const double* row) {
+        pieces += row[packedNumberAt] > 2e12 && row[packedNumberAt] < 0.99e17 ? 1 : 0;
+      });
+    EXPECT_GT(sumOverRanks(static_cast<double>(pieces)), 0.0) << d << " m";
     const auto score = numbers.against(expected);
     EXPECT_LT(score.largest, 4.6) << d << " m";
     EXPECT_LT(score.square, 1.6) << d << " m";
