@@ -64,25 +64,39 @@ std::string suggestChemkinKeyword(std::string_view word) {
 ChemkinUnits::ChemkinUnits() : activationTemperature(constants::thermochemicalCalorie / constants::gasConstant) {}
 
 bool ChemkinUnits::set(std::string_view word) {
+  const auto units = chemkinWords(word, ",");  // "MOLES,KCAL/MOLE"
+  return !units.empty() && std::ranges::all_of(units, [this](std::string_view unit) { return setOne(unit); });
+}
+
+bool ChemkinUnits::setOne(std::string_view word) {
   constexpr double perJoule = 1 / constants::gasConstant;
   constexpr double electronVolt = 1.602176634e-19;  // J (SI)
-  const auto unit = upperCase(word);
+  const auto whole = upperCase(word);
+  std::string_view unit = whole;
+  const auto slash = unit.find('/');
+  const bool perMole = slash != std::string_view::npos;
+  if (perMole) {
+    const auto amount = unit.substr(slash);
+    if (amount != "/MOLE" && amount != "/MOL" && amount != "/MOLES") return false;
+    unit = unit.substr(0, slash);
+  }
   const auto is = [&](std::initializer_list<std::string_view> names) {
     return std::ranges::find(names, unit) != names.end();
   };
-  if (is({"MOLES", "MOLE", "MOL"}))
+  if (is({"CAL"}))
+    activationTemperature = constants::thermochemicalCalorie * perJoule;
+  else if (is({"KCAL"}))
+    activationTemperature = 1e3 * constants::thermochemicalCalorie * perJoule;
+  else if (is({"JOULES", "JOULE", "JOUL", "J"}))
+    activationTemperature = perJoule;
+  else if (is({"KJOULES", "KJOULE", "KJOUL", "KJOU", "KJ"}))
+    activationTemperature = 1e3 * perJoule;
+  else if (perMole)
+    return false;
+  else if (is({"MOLES", "MOLE", "MOL"}))
     quantity = 1;
   else if (is({"MOLECULES", "MOLECULE", "MOLEC"}))
     quantity = 1 / constants::avogadro;
-  else if (is({"CAL/MOLE", "CAL/MOL", "CAL"}))
-    activationTemperature = constants::thermochemicalCalorie * perJoule;
-  else if (is({"KCAL/MOLE", "KCAL/MOL", "KCAL"}))
-    activationTemperature = 1e3 * constants::thermochemicalCalorie * perJoule;
-  else if (is({"JOULES/MOLE", "JOULE/MOLE", "JOULES/MOL", "JOULE/MOL", "J/MOLE", "J/MOL", "JOULES", "JOULE", "JOUL"}))
-    activationTemperature = perJoule;
-  else if (is({"KJOULES/MOLE", "KJOULE/MOLE", "KJOULES/MOL", "KJOULE/MOL", "KJOU/MOLE", "KJOU/MOL", "KJ/MOLE", "KJ/MOL",
-               "KJOULES", "KJOULE", "KJOU"}))
-    activationTemperature = 1e3 * perJoule;
   else if (is({"KELVINS", "KELVIN", "KELV", "K"}))
     activationTemperature = 1;
   else if (is({"EVOLTS", "EVOLT", "EVOL", "EV"}))

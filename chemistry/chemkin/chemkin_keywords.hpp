@@ -23,9 +23,12 @@ struct ChemkinUnits {
 
   // Calories per mole and moles.
   ChemkinUnits();
-  // Takes a word such as KCAL/MOLE or MOLECULES; false if it is no unit.
+  // Takes a word such as KCAL/MOLE or MOLECULES, or several between commas; false if one is no unit.
   bool set(std::string_view word);
   static std::string_view expected();  // the words, for messages
+
+ private:
+  bool setOne(std::string_view word);
 };
 
 }  // namespace lampblack::chemistry

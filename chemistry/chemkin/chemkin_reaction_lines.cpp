@@ -111,6 +111,12 @@ class ReactionLines {
   }
 
   [[noreturn]] void explain(const ChemkinLine& line, std::string_view key) const {
+    for (const std::string_view arrow : {"->", "\xe2\x86\x92", "\xe2\x87\x8c", "\xe2\x87\x94"})
+      if (line.text.find(arrow) != std::string::npos)
+        source_.fail(line.number,
+                     fmt::format("cannot read '{}'; expected '=>' (irreversible), '<=>' or '=' in place of "
+                                 "'{}'",
+                                 trimmed(line.text), arrow));
     source_.fail(
         line.number,
         fmt::format("cannot read '{}': '{}' is not a keyword{}; expected a reaction (with '='), a keyword, or an "

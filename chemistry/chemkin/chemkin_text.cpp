@@ -47,10 +47,12 @@ ChemkinSource::ChemkinSource(const ChemkinText& file) : file_(file.name) {
     else
       rest.remove_prefix(end + (rest.substr(end).starts_with("\r\n") ? 2 : 1));
     const std::size_t comment = line.find('!');
-    std::string_view text = line.substr(0, comment);
-    while (!text.empty() && isBlank(text.back())) text.remove_suffix(1);
+    std::string text(line.substr(0, comment));
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\f' || c == '\v'; }, ' ');  // ends of printed pages
+    while (!text.empty() && isBlank(text.back())) text.pop_back();
     if (!text.empty())
-      lines_.push_back({std::string(text), number});
+      lines_.push_back({std::move(text), number});
     else if (lines_.empty() && comment != std::string_view::npos)
       heading_ += fmt::format("{}\n", commentText(line));
   }

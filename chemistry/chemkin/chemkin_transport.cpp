@@ -65,8 +65,9 @@ bool isChemkinTransport(const ChemkinSource& source) {
   const auto words = chemkinWords(source.lines()[0].text);
   const auto heading = upperCase(words[0]);
   if (heading == "TRANSPORT" || heading == "TRANS" || heading == "TRAN") return true;
-  if (words.size() < 7 || (words[1] != "0" && words[1] != "1" && words[1] != "2")) return false;
-  return std::all_of(words.begin() + 1, words.begin() + 7, [](auto word) { return fortranNumber(word).has_value(); });
+  // A name and four numbers begin no thermodynamic data, whose first card has elements, and whose limits are three.
+  if (words.size() < 5 || fortranNumber(words[0])) return false;
+  return std::all_of(words.begin() + 1, words.begin() + 5, [](auto word) { return fortranNumber(word).has_value(); });
 }
 
 void readChemkinTransport(const ChemkinSource& source, std::span<const ChemkinLine> section,

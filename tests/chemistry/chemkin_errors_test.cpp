@@ -203,7 +203,12 @@ TEST(ChemkinErrors, Lines) {
             "chem.inp:5: REACTIONS: unknown unit 'CALS/MOLE'; e");
   EXPECT_THAT(reactionMessage("H+OH=H2O 1 0 0\n UNITS/BTU/"), AllOf(StartsWith("chem.inp:7:"), HasSubstr("'BTU'")));
   EXPECT_THAT(reactionMessage("H+OH=H2O 1 0 0\nDUPL"), HasSubstr("'DUPL' is not a keyword; did you mean 'DUP'?"));
+  EXPECT_THAT(reactionMessage("H+OH=H2O 1 0 0", "KELVINS/MOLE"), HasSubstr("unknown unit 'KELVINS/MOLE'"));
+  EXPECT_THAT(reactionMessage("H+OH=H2O 1 0 0", "MOLES,BTU"), HasSubstr("unknown unit 'MOLES,BTU'"));
   EXPECT_THAT(reactionMessage("H+OH+H2O 1 0 0"), HasSubstr("expected a reaction (with '=')"));
+  EXPECT_EQ(
+      reactionMessage("H + OH -> H2O 1 0 0"),
+      "chem.inp:6: cannot read 'H + OH -> H2O 1 0 0'; expected '=>' (irreversible), '<=>' or '=' in place of '->'");
   EXPECT_THAT(reactionMessage("H2/2/"), HasSubstr("'H2' stands before the first reaction"));
   EXPECT_THAT(reactionMessage("H+OH+M=H2O+M 1 0 0\nH2/2.0 O2/3/"), HasSubstr("found '3'; is a '/' missing before it?"));
   EXPECT_THAT(reactionMessage("H+OH+M=H2O+M 1 0 0\nH2/"), HasSubstr("expected one efficiency of 'H2', found 0 values"));

@@ -70,6 +70,10 @@ TEST(ChemkinReaction, Units) {
       {"EVOLTS", 1e14, 11604.518121550082},                   // e/k_B
       {"MOLECULES", 1e14 * 6.02214076e23, kelvinPerCalorie},  // cm3/molecule/s
       {"KELVINS molecules", 1e14 * 6.02214076e23, 1},
+      {"JOUL/MOLE", 1e14, 1 / kR},
+      {"kj/mol", 1e14, 1e3 / kR},
+      {"MOLECULES, KELVINS", 1e14 * 6.02214076e23, 1},
+      {"MOLES,KCAL/MOLE", 1e14, 1e3 * kelvinPerCalorie},
   };
   for (const auto& form : forms) {
     SCOPED_TRACE(form.units);
