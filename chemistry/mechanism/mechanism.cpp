@@ -36,6 +36,7 @@ Mechanism::Mechanism(std::string file, std::string description, std::vector<Elem
   checkBalances(file_, elements_, species_, reactions_);
   checkDuplicates(file_, species_, reactions_, rules.duplicateMark, warnings_);
   checkThermo(file_, species_, warnings_);
+  checkTransport(file_, elements_, species_, warnings_);
 }
 
 std::string Mechanism::placeOf(const Species& species) const {

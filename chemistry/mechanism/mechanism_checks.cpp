@@ -109,4 +109,33 @@ void checkThermo(const std::string& file, std::span<const Species> species, std:
   }
 }
 
+namespace {
+
+// What no molecule of so many atoms has; empty if nothing. A diameter of less than an Angstrom is one in another unit.
+std::string oddityOf(const TransportData& data, double atoms) {
+  if (data.diameter < 1e-10)
+    return fmt::format("a diameter of {:.3g} Angstrom, smaller than any atom's; is it in another unit?",
+                       1e10 * data.diameter);
+  const auto shaped = [&](const char* shape) { return fmt::format("the geometry '{}' of {:g} atoms", shape, atoms); };
+  if (data.shape == MoleculeShape::Atom && atoms > 1) return shaped("atom");
+  if (data.shape == MoleculeShape::Linear && atoms < 2) return shaped("linear");
+  if (data.shape == MoleculeShape::Nonlinear && atoms < 3) return shaped("nonlinear");
+  return {};
+}
+
+}  // namespace
+
+void checkTransport(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
+                    std::vector<std::string>& warnings) {
+  for (const auto& s : species) {
+    if (!s.transport) continue;
+    double atoms = 0;
+    for (std::size_t i = 0; i < elements.size(); ++i) atoms += elements[i].name == "E" ? 0 : s.atoms[i];
+    if (atoms == 0) continue;  // electrons
+    if (const auto oddity = oddityOf(*s.transport, atoms); !oddity.empty())
+      warnings.push_back(fmt::format("{}:{}: species '{}': the transport data are taken as they are, but have {}",
+                                     s.file.empty() ? file : s.file, s.line, s.name, oddity));
+  }
+}
+
 }  // namespace lampblack::chemistry

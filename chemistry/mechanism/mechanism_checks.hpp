@@ -48,4 +48,9 @@ std::vector<ColliderPair> findColliderPairs(std::span<const Species> species, st
 // 1 %, h/RT by more than 0.001 cp/R or s/R by more than 0.001 (s + cp)/R (the limits of Cantera).
 void checkThermo(const std::string& file, std::span<const Species> species, std::vector<std::string>& warnings);
 
+// A warning with file and line for each species whose transport data no molecule of its atoms has: a geometry of fewer
+// or more atoms, a diameter of less than an Angstrom.
+void checkTransport(const std::string& file, std::span<const Element> elements, std::span<const Species> species,
+                    std::vector<std::string>& warnings);
+
 }  // namespace lampblack::chemistry

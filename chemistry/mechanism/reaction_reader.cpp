@@ -124,7 +124,10 @@ class ReactionReader {
     } catch (const Undeclared& species) {
       if (scope_.skipUndeclaredSpecies) return std::nullopt;
       if (scope_.skipUndeclaredThirdBodies && isCollider(parsed, species.name)) return std::nullopt;
-      fail(entry_.node(), fmt::format("species '{}' is not declared in the phase", species.name));
+      // "H+O2": names may have '+' in them, so that blanks part the terms of an equation.
+      fail(entry_.node(),
+           fmt::format("species '{}' is not declared in the phase{}", species.name,
+                       species.name.find('+') != std::string::npos ? "; expected blanks around '+'" : ""));
     }
     readRates(yaml_, units_, entry_, reaction_, warnings_);
     if (reaction_.type == Type::LinearBurke)

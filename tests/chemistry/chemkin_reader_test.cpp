@@ -46,14 +46,15 @@ TEST(ChemkinText, FortranNumbers) {
 
 TEST(ChemkinText, LinesKeepTheirNumbers) {
   const ChemkinSource source(
-      {"a", "\xef\xbb\xbf! First author,\tJ. Chem. 1 (2000)\r\n!  second line !!\r\n\r\n A B ! x\n\n\tC \rD"});
+      {"a", "\xef\xbb\xbf! First author,\tJ. Chem. 1 (2000)\r\n!  second line !!\r\n\r\n A B ! x\n\n\tC \rD\n\f\n\fE"});
   EXPECT_EQ(source.heading(), "First author, J. Chem. 1 (2000)\n second line");
-  ASSERT_EQ(source.lines().size(), 3U);
+  ASSERT_EQ(source.lines().size(), 4U);
   EXPECT_EQ(source.lines()[0].text, " A B");
   EXPECT_EQ(source.lines()[0].number, 4);
   EXPECT_EQ(source.lines()[1].number, 6);
   EXPECT_EQ(source.lines()[2].text, "D");
   EXPECT_EQ(source.lines()[2].number, 7);
+  EXPECT_EQ(source.lines()[3].text, " E") << "the end of a printed page is a blank";
 }
 
 TEST(ChemkinReader, ElementsWithWeightsOfTheirOwn) {
@@ -192,6 +193,37 @@ TEST(ChemkinReader, TheSecondFileMayBeTransportData) {
   EXPECT_THAT(lampblack::test::inputMessage(
                   [] { readChemkinText("ELEM H END SPEC H2 END", nullptr, "H2 1 38. 2.92 0.0 .79 280.\n"); }),
               HasSubstr("no thermodynamic data of any species"));
+}
+
+// A mistake in the first line does not make it thermodynamic data of no species.
+TEST(ChemkinReader, ASecondFileWithAMistakeInItsFirstLineIsTransportData) {
+  const std::string mechanism = "ELEM H END SPEC H2 END\nTHERMO\n" + thermoCards("H2", "H   2") + "END\n";
+  const auto message = [&](const std::string& line) {
+    return lampblack::test::inputMessage([&] { readChemkinText(mechanism, nullptr, line); });
+  };
+  EXPECT_THAT(message("H2 3 38. 2.92 0.0 .79 280.\n"),
+              HasSubstr("therm.dat:1: transport data of 'H2': expected a geometry"));
+  EXPECT_THAT(message("H2 1 38. 2.92 0.0 .79\n"),
+              HasSubstr("therm.dat:1: transport data of 'H2': expected six numbers"));
+  // Limits of temperature and cards without a heading are what they were.
+  EXPECT_EQ(readChemkinText("ELEM H END SPEC H2 END", nullptr, thermoCards("H2", "H   2")).species(0).thermo.high,
+            kHigh);
+}
+
+TEST(ChemkinReader, TransportDataThatNoMoleculeHasAreAWarning) {
+  const auto warningsOf = [](const std::string& species, const std::string& data) {
+    std::vector<std::string> warnings;
+    readChemkinText("ELEM H O E END SPEC " + species + " END", &warnings, chemkinThermo(), species + " " + data);
+    return warnings;
+  };
+  for (const auto& [species, data] : {std::pair("H2O", "2 572.4 1.0 1.844 0 4"), std::pair("OH", "1 80. 2.75 0 0 0"),
+                                      std::pair("H", "0 145. 2.05 0 0 0"), std::pair("E", "0 850. 425. 0 0 1")})
+    EXPECT_THAT(warningsOf(species, data), IsEmpty()) << species;
+  EXPECT_THAT(warningsOf("H2O", "2 572.4 2.605E-10 1.844 0 4"),
+              ElementsAre(AllOf(HasSubstr("chem.inp:1: species 'H2O'"), HasSubstr("a diameter of 2.6e-10 Angstrom"))));
+  EXPECT_THAT(warningsOf("H2O", "0 572.4 2.605 1.844 0 4"), ElementsAre(HasSubstr("the geometry 'atom' of 3 atoms")));
+  EXPECT_THAT(warningsOf("H", "1 145. 2.05 0 0 0"), ElementsAre(HasSubstr("the geometry 'linear' of 1 atoms")));
+  EXPECT_THAT(warningsOf("OH", "2 80. 2.75 0 0 0"), ElementsAre(HasSubstr("the geometry 'nonlinear' of 2 atoms")));
 }
 
 TEST(ChemkinReader, TransportIsConverted) {

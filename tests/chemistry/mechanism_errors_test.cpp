@@ -15,6 +15,7 @@ using lampblack::test::mechanismText;
 using lampblack::test::readFileText;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::string messageOf(const std::string& text) {
   try {
@@ -169,6 +170,13 @@ TEST(MechanismErrors, RatesThatMakeNoSense) {
   };
   for (const auto& [entry, expected] : cases)
     EXPECT_THAT(reactionMessage(entry), AllOf(HasSubstr(".yaml:12:"), HasSubstr(expected))) << entry;
+}
+
+TEST(MechanismErrors, EquationsWithoutBlanksSayWhatIsMissing) {
+  for (const char* entry :
+       {"equation: H+O2 <=> HO2, rate-constant: [1, 0, 0]", "equation: H+O2<=>HO2, rate-constant: [1, 0, 0]"})
+    EXPECT_THAT(reactionMessage(entry), HasSubstr("'H+O2' is not declared in the phase; expected blanks around '+'"));
+  EXPECT_THAT(reactionMessage("equation: H + O3 <=> HO2, rate-constant: [1, 0, 0]"), AllOf(HasSubstr("'O3' is not"), Not(HasSubstr("blanks"))));
 }
 
 TEST(MechanismErrors, UnknownKeysNameTheNearest) {
