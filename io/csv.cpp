@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/errors.hpp"
+#include "io/decimal_point.hpp"
 #include "io/table_column.hpp"
 
 namespace lampblack::io {
@@ -163,13 +164,15 @@ TextTable readCsv(const std::string& given) {
   const char separator = separatorOf(std::string_view(text).substr(start)).value_or(',');
   const auto endField = [&] {
     while (!hadQuotes && !field.empty() && isBlank(field.back())) field.pop_back();
-    row.push_back(std::move(field));
+    row.push_back(separator == ',' || hadQuotes ? std::move(field) : withDecimalPoint(std::move(field)));
     field.clear();
     hadQuotes = false;
   };
   const auto endRow = [&] {
     if (row.empty() && field.empty()) return;
     endField();
+    // Spreadsheets write separators behind the last column.
+    while (row.size() > std::max<std::size_t>(table.columns.size(), 1) && row.back().empty()) row.pop_back();
     if (table.columns.empty()) {
       table.columns = row;
     } else if (row.size() != table.columns.size()) {

@@ -40,9 +40,9 @@ std::string csvTable(const std::vector<Quantity>& columns, std::span<const doubl
 // numbers of fields differ.
 [[nodiscard]] std::string withNamesOutOfComment(std::string text);
 
-// Lines that begin with # and a byte-order mark are skipped, as are blanks around a field that does not stand in
-// quotes. Fields are parted as separatorOf says, for spreadsheets write semicolons or tabulators, too. The names may
-// stand in a comment, as withNamesOutOfComment says.
+// Lines that begin with # and a byte-order mark are skipped, as are blanks around a field outside of quotes and empty
+// fields behind the last column. separatorOf parts the fields; where it is no comma, decimal commas become points
+// (withDecimalPoint). The names may stand in a comment, as withNamesOutOfComment says.
 // InputError where a row has another number of fields than the first line.
 TextTable readCsv(const std::string& text);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -13,6 +14,7 @@
 #include "core/errors.hpp"
 #include "core/text_file.hpp"
 #include "io/csv.hpp"
+#include "io/decimal_point.hpp"
 #include "io/table_column.hpp"
 
 namespace lampblack::app {
@@ -24,8 +26,8 @@ std::string trimmed(const std::string& line) {
 
 // The fields of a line, without the blanks and quotes around them: between commas or semicolons as in other tables, or
 // between any blanks where there are neither.
-std::vector<std::string> fieldsOf(const std::string& line) {
-  const char found = separatorOf(line).value_or(' '), separator = found == '\t' ? ' ' : found;
+std::vector<std::string> fieldsOf(const std::string& line, char found) {
+  const char separator = found == '\t' ? ' ' : found;
   std::vector<std::string> fields(1);
   bool quoted = false;
   for (const char c : line) {
@@ -34,10 +36,12 @@ std::vector<std::string> fieldsOf(const std::string& line) {
       quoted = !quoted;
     else if (!quoted && (separator == ' ' ? blank : c == separator))
       fields.emplace_back();
-    else if (quoted || !blank)
+    else if (quoted || !blank || !fields.back().empty())
       fields.back() += c;
   }
+  for (std::string& field : fields) field.erase(field.find_last_not_of(" \t\r") + 1);
   if (separator == ' ') std::erase(fields, "");
+  while (fields.size() > 2 && fields.back().empty()) fields.pop_back();  // spreadsheets' separators behind the last
   return fields;
 }
 
@@ -49,6 +53,23 @@ std::optional<double> numberIn(const std::string& field) {
   if (digits.empty() || status == std::errc::invalid_argument || end != digits.data() + digits.size())
     return std::nullopt;
   return status == std::errc{} ? value : std::numeric_limits<double>::infinity();
+}
+
+// The two numbers of a line; with decimal commas where semicolons or blanks part them, "0,5;300".
+std::optional<std::array<double, 2>> numbersIn(const std::string& line) {
+  const auto two = [](const std::vector<std::string>& fields) -> std::optional<std::array<double, 2>> {
+    if (fields.size() != 2) return std::nullopt;
+    const auto point = numberIn(fields[0]), value = numberIn(fields[1]);
+    if (!point || !value || !std::isfinite(*point) || !std::isfinite(*value)) return std::nullopt;
+    return std::array{*point, *value};
+  };
+  if (const auto numbers = two(fieldsOf(line, separatorOf(line).value_or(' ')))) return numbers;
+  for (const char separator : {';', ' '}) {
+    std::vector<std::string> fields = fieldsOf(line, separator);
+    std::ranges::transform(fields, fields.begin(), withDecimalPoint);
+    if (const auto numbers = two(fields)) return numbers;
+  }
+  return std::nullopt;
 }
 
 // Of a header: units behind a blank belong to the name before them where blanks separate the columns.
@@ -96,7 +117,7 @@ TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimens
   TableColumn pointColumn("", "", pointDimension), valueColumn("", "", valueDimension);
   for (std::string line; std::getline(file, line);) {
     ++number;
-    const std::vector<std::string> fields = fieldsOf(line);
+    const std::vector<std::string> fields = fieldsOf(line, separatorOf(line).value_or(' '));
     if (std::all_of(fields.begin(), fields.end(), [](const std::string& field) { return field.empty(); }) ||
         fields[0].starts_with('#'))
       continue;
@@ -125,23 +146,18 @@ TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimens
       }
       continue;
     }
-    auto point = numberIn(fields[0]), value = fields.size() == 2 ? numberIn(fields[1]) : std::nullopt;
-    if (!point || !value || !std::isfinite(*point) || !std::isfinite(*value))
-      refuse(fmt::format("expected two numbers, found '{}'{}", trimmed(line),
-                         line.find(';') != std::string::npos && line.find(',') != std::string::npos
-                             ? "; numbers have a decimal point"
-                             : ""));
-    point = pointColumn.inSI(*point);
-    value = valueColumn.inSI(*value);
-    if (!points.empty() && !(*point > points.back()))
-      refuse(fmt::format("the points have to rise; {} follows {}", *point, points.back()));
+    const auto numbers = numbersIn(line);
+    if (!numbers) refuse(fmt::format("expected two numbers, found '{}'", trimmed(line)));
+    const double point = pointColumn.inSI((*numbers)[0]), value = valueColumn.inSI((*numbers)[1]);
+    if (!points.empty() && !(point > points.back()))
+      refuse(fmt::format("the points have to rise; {} follows {}", point, points.back()));
     try {
-      check(*value);
+      check(value);
     } catch (const InputError& error) {
       refuse(error.what());
     }
-    points.push_back(*point);
-    values.push_back(*value);
+    points.push_back(point);
+    values.push_back(value);
   }
   if (points.empty()) throw InputError(fmt::format("{}: expected lines of two numbers, found none", path.string()));
   return {std::move(points), std::move(values)};

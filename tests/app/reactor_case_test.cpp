@@ -86,10 +86,14 @@ TEST(ReactorCase, AProfileFileLosesNoLine) {
   EXPECT_EQ(profileOf("# made by hand\n\"time, s\",\"T, K\"\n0,300\n1,+4e2"), "300 400 ");
   EXPECT_EQ(profileOf("time T\n 0 300\n\n# half way\n 1\t400\n"), "300 400 ");
   EXPECT_EQ(profileOf("time [s];T [degC]\n0;26.85\n1; 126.85\n", 1.0), "300 400 at 400");
+  for (const char* text : {"0,0;300\n1,0;400\n", "0;300\n1;400,0\n", "0\t300,0\n1\t400,0\n", "0,0 300,0\n1 400\n",
+                           "time [s];T [K];\n0,0;300\n1,0;400,0\n"})
+    EXPECT_EQ(profileOf(text), "300 400 ") << "decimal commas: " << text;
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
            {"0,nan\n1,400\n", "profile.csv:1: expected two numbers, found '0,nan'"},
            {"nan,nan\n1,400\n", ":1: expected two numbers, found 'nan,nan'"},
-           {"0,0;300\n1,0;400\n", ":1: expected two numbers, found '0,0;300'; numbers have a decimal point"},
+           {"0,0;300;1\n", ":1: expected two numbers, found '0,0;300;1'"},
+           {"0,0,300\n", ":1: expected two numbers, found '0,0,300'"},
            {"0,T\n1,400\n", ":1: expected two numbers, found '0,T'"},
            {"time,T\ntime,T\n1,400\n", ":2: expected two numbers"},
            {"time,T\n0,300,1\n", ":2: expected two numbers"},

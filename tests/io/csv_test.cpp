@@ -42,10 +42,30 @@ TEST(Csv, SemicolonsTabulatorsAndBlanksAroundFields) {
     EXPECT_EQ(table.rows, (std::vector<std::vector<std::string>>{{"0", "1"}, {"2", "3"}})) << text;
   }
   EXPECT_EQ(readCsv("a,b;c\n1,2;3\n").rows[0], (std::vector<std::string>{"1", "2;3"})) << "a comma parts alone";
-  EXPECT_EQ(readCsv("\"a,b\";c\n1,5;2\n").rows[0], (std::vector<std::string>{"1,5", "2"})) << "but not in quotes";
+  EXPECT_EQ(readCsv("\"a,b\";c\n1;2\n").columns, (std::vector<std::string>{"a,b", "c"})) << "but not in quotes";
   EXPECT_EQ(readCsv("a\tb\n\t2\n").rows[0], (std::vector<std::string>{"", "2"}));
   const TextTable blanks{{"a"}, {{" b "}}};
   EXPECT_EQ(readCsv(csvText(blanks)).rows, blanks.rows);
+}
+
+// Where no comma parts fields.
+TEST(Csv, DecimalCommasBecomePoints) {
+  for (const std::string text : {"a;b\n1,5;-0,25e-3\n", "a\tb\n1,5\t-0,25e-3\n"})
+    EXPECT_EQ(readCsv(text).rows[0], (std::vector<std::string>{"1.5", "-0.25e-3"})) << text;
+  for (const std::string kept : {"1,2,3", "C5H5O(1,3)", "O2: 1, N2: 3", "1,", "x,5", "1,5x", "1.000,5", "1,5e"})
+    EXPECT_EQ(readCsv("a;b\n" + kept + ";2\n").rows[0][0], kept == "1,5e" ? "1.5e" : kept);
+  EXPECT_EQ(readCsv("a;b\n\"1,5\";2\n").rows[0][0], "1,5") << "a text in quotes";
+  EXPECT_EQ(readCsv("a,b\n1,5\n").rows[0], (std::vector<std::string>{"1", "5"}));
+}
+
+TEST(Csv, EmptyFieldsBehindTheLastColumnAreNone) {
+  for (const std::string text : {"a,b,\n1,2,\n", "a;b;;\n1;2;;\n", "a,b\n1,2,,\n"}) {
+    EXPECT_EQ(readCsv(text).columns, (std::vector<std::string>{"a", "b"})) << text;
+    EXPECT_EQ(readCsv(text).rows, (std::vector<std::vector<std::string>>{{"1", "2"}})) << text;
+  }
+  EXPECT_EQ(readCsv("a,b\n1,\n").rows[0], (std::vector<std::string>{"1", ""})) << "a column's own";
+  EXPECT_THAT(test::messageOf<InputError>([] { static_cast<void>(readCsv("a,b,\n1,2,3\n")); }),
+              testing::HasSubstr("line 2 has 3 fields, the line of the names 2"));
 }
 
 // As numpy's savetxt writes names; no other comment is one.

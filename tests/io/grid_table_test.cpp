@@ -97,7 +97,7 @@ TEST_F(Tables, SpanAGridInAnyOrder) {
 TEST_F(Tables, SayWhatIsWrong) {
   EXPECT_THAT(problem("velocity\n1\n"), HasSubstr("expected a column of one of: r, z, t; found 'velocity'"));
   EXPECT_THAT(problem("0,1\n1,2\n"), HasSubstr("the first line has the numbers 0, 1 in place of the names"));
-  EXPECT_THAT(problem("r;velocity\n0;1,5\n"), HasSubstr("found '1,5'; numbers have a decimal point"));
+  EXPECT_THAT(problem("r,velocity\n0,\"1,5\"\n"), HasSubstr("found '1,5'; numbers have a decimal point"));
   EXPECT_THAT(problem("r,speed\n1,2\n"), HasSubstr("no column has a name that counts here; found 'r', 'speed'"));
   EXPECT_THAT(problem("r,velocity\n"), HasSubstr("no rows"));
   EXPECT_THAT(problem("r,velocity\n1,fast\n"),
