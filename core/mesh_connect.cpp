@@ -336,14 +336,22 @@ class Connector {
       if (!triples_.empty())
         throw InputError(fmt::format("three cells of the mesh share one face, one of them cell {} (counted from zero)",
                                      block_.firstCell + *std::ranges::min_element(triples_)));
+      std::vector<std::string> places;  // of faces without a boundary
       for (std::size_t c = 0; c < cellCount(); ++c) {
         const auto shape = sidesOf(cells.shapes[c]);
         for (std::size_t s = 0; s < shape.size(); ++s) {
           const CellSet::Side& side = cells.sidesOf(c)[s];
-          if (side.neighbour < 0 && side.patch < 0)
-            throw InputError(fmt::format("the boundary face at {} belongs to no boundary", placeOf(c, shape[s])));
+          if (side.neighbour < 0 && side.patch < 0) places.push_back(placeOf(c, shape[s]));
         }
       }
+      if (places.empty()) return;
+      const auto first = std::ranges::find_if(places, [&](const auto& p) { return std::ranges::count(places, p) > 1; });
+      if (first != places.end())
+        throw InputError(
+            fmt::format("the cells on both sides of the face at {} have corners of their own there, so that it belongs "
+                        "to no boundary; make the corners at one place one (in Gmsh: Coherence)",
+                        *first));
+      throw InputError(fmt::format("the boundary face at {} belongs to no boundary", places.front()));
     });
   }
 

@@ -50,8 +50,9 @@ class Checker {
       const SchemaNode* known = schema.child(child.name);
       const std::string childPath = joinedPath(path, child.name);
       if (known == nullptr && any != nullptr && child.name.find_first_of(".[]") != std::string::npos) {
-        mistakes_.add(child.nameAt,
-                      deckError(source_, child.nameAt, childPath, "a name may not contain '.', '[' or ']'"));
+        mistakes_.add(child.nameAt, deckError(source_, child.nameAt, childPath,
+                                              "a name may not contain '.', '[' or ']'; write '_' in its place, also "
+                                              "where a mesh file has such a name"));
         unread_.insert(&child);
         continue;
       }

@@ -138,6 +138,42 @@ TEST(FlowMeshFile, AMeshFileAndTheDeckHaveTheSameNames) {
   EXPECT_THAT(deck.error(withoutFloor + "  floor: {type: periodic}\n"), HasSubstr("belongs to no boundary"));
 }
 
+// A deck's names have neither points nor brackets, a file's may.
+TEST(FlowMeshFile, ANameWithPointsOrBracketsGoesByUnderscores) {
+  const MeshFileDeck deck;
+  std::string file = rowOfThree;
+  file.replace(file.find("\"floor\""), 7, "\"wall[1].low\"");
+  deck.write(file);
+  const std::string withoutFloor = rowSides.substr(0, rowSides.find("  floor"));
+  FlowCase flowCase = deck.read(withoutFloor + "  wall_1__low: {type: wall}\n");
+  const Mesh mesh = makeMesh(MPI_COMM_WORLD, flowCase);
+  EXPECT_THAT(mesh.patches, ElementsAre("in", "out", "top", "wall_1__low"));
+  EXPECT_THAT(deck.error(withoutFloor + "  wall_1_low: {type: wall}\n"), HasSubstr("no such part of the mesh"));
+}
+
+TEST(FlowMeshFile, AFileWithoutNamesSaysWhatNeedsThem) {
+  const MeshFileDeck deck;
+  std::string file = rowOfThree;
+  file.replace(file.find("6 9 1 9"), file.find("2 1 3 1\n") - file.find("6 9 1 9"), "2 3 7 9\n");
+  deck.write(file);
+  EXPECT_THAT(deck.error(rowSides), HasSubstr("row.msh has no names: give the lines of its surface physical groups"));
+}
+
+// Of the two triangles the second has corners of its own beside the first.
+TEST(FlowMeshFile, CornersThatAreThereTwiceAreSaid) {
+  const MeshFileDeck deck;
+  std::string file = rowOfThree;
+  const auto change = [&](const std::string& from, const std::string& to) {
+    file.replace(file.find(from), from.size(), to);
+  };
+  change("1 6 1 6\n2 1 0 6\n", "1 8 1 8\n2 1 0 8\n");
+  change("5\n6\n0 0 0", "5\n6\n7\n8\n0 0 0");
+  change("2 1 0\n$EndNodes", "2 1 0\n2 0 0\n1 1 0\n$EndNodes");
+  change("9 2 6 5", "9 2 6 8");
+  deck.write(file);
+  EXPECT_THAT(deck.error(rowSides), HasSubstr("the cells on both sides of the face at (0.01, 0.005) m"));
+}
+
 TEST(FlowMeshFile, AMeshFileStandsAlone) {
   const MeshFileDeck deck;
   EXPECT_THAT(deck.error(rowSides, "geometry: planar, refinement: 2"), HasSubstr("mesh.refinement"));

@@ -251,7 +251,8 @@ TEST(DeckErrors, WhatDecksDoNotUseIsRefused) {
   EXPECT_THAT(messageOf("- 1\n- 2\n"), HasSubstr("expected a map of keys, found a list of 2"));
   EXPECT_THAT(messageOf("just words"), HasSubstr("expected a map of keys, found 'just words'"));
   EXPECT_THAT(messageOf(std::string("a\0b", 3)), HasSubstr("not a text file"));
-  EXPECT_THAT(messageOf(sampleWith("  fuel:", "  fu.el:")), HasSubstr("a name may not contain '.'"));
+  EXPECT_THAT(messageOf(sampleWith("  fuel:", "  fu.el:")),
+              HasSubstr("a name may not contain '.', '[' or ']'; write '_'"));
 }
 
 TEST(DeckErrors, AFileThatIsNotThereOrIsAFolder) {

@@ -58,16 +58,27 @@ void requireGeometry(const FlowCase& flowCase, int dimension) {
                                                    : "lies in a plane; expected planar or axisymmetric"));
 }
 
+// What a deck calls a patch: a deck's names have neither points nor brackets.
+std::string nameInDeck(std::string patch) {
+  std::ranges::replace_if(
+      patch, [](char c) { return c == '.' || c == '[' || c == ']'; }, '_');
+  return patch;
+}
+
 // The patch that a name of the deck stands for; a group without a name goes by its number, too. patches.size(): none.
 std::size_t patchOf(const std::vector<std::string>& patches, const std::string& name) {
   auto found = std::ranges::find(patches, name);
   if (found == patches.end()) found = std::ranges::find(patches, "physical " + name);
+  if (found == patches.end()) found = std::ranges::find(patches, name, nameInDeck);
   return static_cast<std::size_t>(found - patches.begin());
 }
 
-std::string namesText(const std::vector<std::string>& patches, const MeshFile& file) {
-  return fmt::format("{} has these names: {}", file.path.string(),
-                     patches.empty() ? "none" : fmt::format("{}", fmt::join(patches, ", ")));
+std::string namesText(const std::vector<std::string>& patches, const FlowCase& flowCase) {
+  const std::string file = flowCase.meshFile->path.string();
+  if (patches.empty())
+    return fmt::format("{} has no names: give the {} of its surface physical groups", file,
+                       flowCase.dimension == 3 ? "faces" : "lines");
+  return fmt::format("{} has these names: {}", file, fmt::join(patches, ", "));
 }
 
 // The number of each of the file's patches among the boundaries; -1: periodic. Those that the deck does not name are
@@ -82,7 +93,7 @@ std::vector<int> numbersOf(const std::vector<std::string>& patches, const FlowCa
     const std::size_t patch = patchOf(patches, known[k]);
     if (patch == patches.size())
       throw file.deck.error("boundaries." + known[k],
-                            fmt::format("there is no such part of the mesh; {}{}", namesText(patches, file),
+                            fmt::format("there is no such part of the mesh; {}{}", namesText(patches, flowCase),
                                         didYouMean(known[k], patches)));
     if (numbers[patch] != unknown)
       throw file.deck.error(
@@ -142,7 +153,8 @@ void dropOtherPatches(Mesh& mesh, const std::vector<std::string>& others, const 
   collectively(mesh.comm, [&] {
     for (std::size_t i = 0; i < others.size(); ++i)
       if (faces.surface[boundaries + i] > 0)
-        throw file.deck.error("boundaries", fmt::format("'{}' has no boundary; {}", others[i], namesText(names, file)));
+        throw file.deck.error("boundaries",
+                              fmt::format("'{}' has no boundary; {}", others[i], namesText(names, flowCase)));
   });
   for (const std::string& name : others)
     notes.push_back(
