@@ -80,12 +80,17 @@ constexpr std::array<Prefix, 15> prefixes{{{"f", 1e-15},
                                            {"da", 1e1}}};
 
 // What people write for a unit, in letters of any case, and how to give it here.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 33> otherUnits{{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 38> otherUnits{{
     {"c", "write degC"},
     {"celsius", "write degC"},
     {"f", "write K or degC"},
     {"degf", "write K or degC"},
     {"kelvin", "write K"},
+    {"°k", "write K"},
+    {"r", "one of Rankine is 5/9 K"},
+    {"dyn", "one is 1e-5 N"},
+    {"cad", "write deg"},
+    {"ca", "write deg"},
     {"sec", "write s"},
     {"secs", "write s"},
     {"second", "write s"},
@@ -111,9 +116,9 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 33> otherUni
     {"mmhg", "write Torr"},
     {"cc", "write cm^3"},
     {"#", "write 1, as in 1/cm^3"},
-    {"sccm", "standard volumes are not read; give the mass flow, '1 g/min'"},
-    {"slm", "standard volumes are not read; give the mass flow, '1 g/min'"},
-    {"slpm", "standard volumes are not read; give the mass flow, '1 g/min'"},
+    {"sccm", "standard volumes are not read; give the mass flow, '1 g/min', or the velocity that it makes"},
+    {"slm", "standard volumes are not read; give the mass flow, '1 g/min', or the velocity that it makes"},
+    {"slpm", "standard volumes are not read; give the mass flow, '1 g/min', or the velocity that it makes"},
 }};
 
 }  // namespace

@@ -26,7 +26,16 @@ OtherNames otherNamesOfKeysAndChoices() {
           {"premixed", "free"},
           {"freeflame", "free"},
           {"stagnation", "wall"},
+          // streams of a flow
+          {"mass_flow", "velocity"},
+          {"mass_flow_rate", "velocity"},
+          {"mass_flux", "velocity"},
+          {"volume_flow", "velocity"},
+          {"flow_rate", "velocity"},
+          {"U", "velocity"},
           // models of turbulence
+          {"laminar", "none"},
+          {"k-omega-sst", "sst"},
           {"kEpsilon", "k_epsilon"},
           {"kOmegaSST", "sst"},
           {"kOmega", "k_omega"},

@@ -87,6 +87,7 @@ TEST(PahCase, GasesWithoutPartMayBeNamed) {
   const std::vector<double> without = concentrations("H: 0.01, C2H2: 0.1");
   EXPECT_EQ(concentrations("N2: 0.5, H: 0.01, AR: 0.2, C2H2: 0.1, CO: 0.1"), without);
   EXPECT_EQ(std::ranges::count(without, 0.0), 4);
+  EXPECT_EQ(concentrations("h: 0.01, c2h2: 0.1"), without) << "in any case";
 }
 
 TEST(PahCase, WhatIsNoGasIsRefused) {

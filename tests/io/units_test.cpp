@@ -83,6 +83,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refused{"5 UM", units::length, "; did you mean um?"},
         Refused{"2 MPA", units::pressure, "did you mean mPa or MPa?"},
         Refused{"25 C", units::temperature, "'C' is not a unit known here; write degC"},
+        Refused{"300 °K", units::temperature, "; write K"}, Refused{"10 dyn/cm^2", units::pressure, "; one is 1e-5 N"},
+        Refused{"-20 CAD", units::angle, "; write deg"}, Refused{"540 R", units::temperature, "Rankine is 5/9 K"},
         Refused{"10 sec", units::time, "; write s"}, Refused{"10 cm/Sec", units::velocity, "; write s"},
         Refused{"14.7 psi", units::pressure, "one is 6894.757 Pa"}, Refused{"5 cc", units::volume, "write cm^3"},
         Refused{"3 slpm", units::massFlow, "give the mass flow"}, Refused{"nan", units::length, "not a finite number"},

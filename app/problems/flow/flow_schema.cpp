@@ -39,7 +39,7 @@ void addBoundaries(DeckSchema& schema) {
                 "Coordinate along the side where the boundary ends; absent: the upper end of the side.");
   keys.quantity("boundaries.*.velocity", units::velocity,
                 rules().optional().atLeast(0).onlyWith("boundaries.*.type", {"inlet"}),
-                "Normal velocity into the domain.");
+                "Normal velocity into the domain. Of a mass flow it is that over the density and the area.");
   keys.quantity("boundaries.*.tangential_velocity", units::velocity,
                 rules().optional().onlyWith("boundaries.*.type", {"inlet", "wall"}),
                 "Velocity along the boundary, in the direction of its axis: of a moving wall, or of a stream that "

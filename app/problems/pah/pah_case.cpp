@@ -72,9 +72,10 @@ ParticlePath constantGas(const Deck& deck) {
     const std::string key = "gas.mole_fractions." + name;
     const double share = deck.number(key);
     sum += share;
-    const auto found = std::ranges::find(names, name);
+    const auto found =
+        std::ranges::find_if(names, [&](const std::string& known) { return sameInAnyCase(known, name); });
     if (found != names.end())
-      sample.concentrations[static_cast<std::size_t>(found - names.begin())] = total * share;
+      sample.concentrations[static_cast<std::size_t>(found - names.begin())] += total * share;
     else if (std::ranges::none_of(gasesWithoutPart, [&](std::string_view gas) { return sameInAnyCase(gas, name); }))
       throw deck.error(key, fmt::format("molecules react with {} only; of others {} may be named; leave this out",
                                         fmt::join(names, ", "), fmt::join(gasesWithoutPart, ", ")));
