@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/first_error.hpp"
+#include "core/parallel_session.hpp"
 #include "core/stop_request.hpp"
 #include "core/system_error.hpp"
 
@@ -63,9 +64,7 @@ void raiseCollectively(MPI_Comm comm, const std::exception_ptr& error) {
 }
 
 void raiseFirst(MPI_Comm comm, const std::exception_ptr& error, std::int64_t order) {
-  int started = 0;
-  MPI_Initialized(&started);
-  if (started == 0) {  // a process by itself, in a command that needs no MPI
+  if (!ParallelSession::runs()) {  // a process by itself, in a command that needs no MPI
     if (error) std::rethrow_exception(error);
     return;
   }

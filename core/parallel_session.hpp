@@ -8,7 +8,7 @@ namespace lampblack {
 // Whether this process is a rank that a launcher started (mpirun, srun, ...), and others may be beside it.
 bool startedByLauncher();
 
-// Which rank of how many this process is; before MPI starts, the only one.
+// Which rank of how many this process is; before MPI starts and after it ends, the only one.
 struct Place {
   int rank = 0, ranks = 1;
 };
@@ -19,12 +19,12 @@ class ParallelSession {
   // Starts MPI and PETSc, whose errors come back as codes from then on. NumericsError where PETSc does not start. What
   // the user has set in the environment (OMPI_MCA_..., HWLOC_COMPONENTS) is kept.
   ParallelSession();
-  // Ends both.
+  // Ends both, collectively: no rank before all have come here.
   ~ParallelSession();
   ParallelSession(const ParallelSession&) = delete;
   ParallelSession& operator=(const ParallelSession&) = delete;
 
-  // Whether MPI has started in this process.
+  // Whether MPI has started in this process and has not ended.
   static bool runs();
 };
 

@@ -8,8 +8,10 @@
 namespace lampblack::app {
 
 struct Command {
-  std::function<void()> work;  // collective where a launcher started several ranks
+  enum class On { AllRanks, FirstRank };
+  std::function<void()> work;  // on all ranks collective where a launcher started several; on the first without MPI
   bool needsMpi = false;       // without a launcher, too
+  On on = On::AllRanks;
 };
 
 }  // namespace lampblack::app

@@ -74,7 +74,6 @@ void run(const Arguments& arguments) {
 }
 
 void reference(const Arguments& arguments) {
-  if (placeOfProcess().rank != 0) return;
   if (arguments.json) {
     std::cout << jsonSchema(deckKinds());
   } else {
@@ -169,14 +168,14 @@ int runCommandLine(int argc, char** argv) {
   checkCommand->add_option("--set", arguments.overrides, "Override a key: a.b=c.")->allow_extra_args(false);
   checkCommand->callback([&] {
     if (isAnalysis(arguments.deck))
-      command = {[&] { checkAnalysis(arguments.deck, arguments.overrides); }};
+      command = {.work = [&] { checkAnalysis(arguments.deck, arguments.overrides); }, .on = Command::On::FirstRank};
     else
       command = {[&] { check(arguments); }, true};
   });
 
   CLI::App* referenceCommand = app.add_subcommand("deck-reference", "Print all keys of a deck.");
   referenceCommand->add_flag("--json-schema", arguments.json, "As a JSON schema for editors.");
-  referenceCommand->callback([&] { command = {[&] { reference(arguments); }}; });
+  referenceCommand->callback([&] { command = {.work = [&] { reference(arguments); }, .on = Command::On::FirstRank}; });
 
   addGasCommand(app, command);
   addMechanismCommand(app, command);
@@ -212,6 +211,11 @@ int runCommandLine(int argc, char** argv) {
     if (ParallelSession::runs()) {
       checkRanks(PETSC_COMM_WORLD, arguments.ranks);
       countMachines(PETSC_COMM_WORLD);
+    }
+    if (command.on == Command::On::FirstRank) {
+      const bool isFirst = placeOfProcess().rank == 0;
+      session.reset();  // the others wait for nothing, and a failure is that of a process by itself
+      if (!isFirst) return;
     }
     command.work();
   });

@@ -15,6 +15,7 @@ import time
 
 import running
 
+ANALYSIS = str(running.SOURCE / "cases/reactor/silica_batch/analysis.yaml")
 METHANE = str(running.SOURCE / "cases/mechanisms/methane_gri30_53.yaml")
 IGNITION = str(running.SOURCE / "cases/reactor/ignition_hydrogen/deck.yaml")
 FLAME = str(running.SOURCE / "cases/flame1d/free_methane/deck.yaml")
@@ -157,6 +158,17 @@ def check_launchers(executable, mpiexec, folder):
     assert done.returncode == 0, done
 
 
+def check_first_rank(executable, mpiexec):
+    """What the first of two ranks does alone ends with its exit code, said once; no rank is aborted while the other ends MPI."""
+    env = dict(HASTE, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+    for arguments, code, words in ((["where", "cases"], 0, "cases\n"), (["plot", "--help"], 0, "usage: lampblack plot"),
+                                   (["cases", "copy", "nothing"], 2, "there is no case 'nothing'"),
+                                   (["check", ANALYSIS], 2, "an analysis starts its runs itself")):
+        done = run(*mpiexec, "2", "--oversubscribe", executable, *arguments, **env)
+        assert done.returncode == code and (done.stdout + done.stderr).count(words) == 1, (arguments, done)
+        assert "MPI_ABORT" not in done.stderr, (arguments, done)
+
+
 def main(executable, *mpiexec):
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
@@ -165,6 +177,7 @@ def main(executable, *mpiexec):
         check_ranks(executable, folder)
         check_stops(executable, folder)
         check_launchers(executable, mpiexec, folder)
+        check_first_rank(executable, mpiexec)
     return 0
 
 

@@ -76,15 +76,16 @@ void handOver(const std::string& task, const AnalysisArguments& arguments, const
                   words);
 }
 
-void analyse(const Task& task, const AnalysisArguments& arguments) {
-  if (startedByLauncher()) {
-    if (placeOfProcess().rank != 0) return;
+void refuseLauncher(const std::string& task) {
+  if (startedByLauncher())
     throw InputError(
         fmt::format("{}: an analysis starts its runs itself, on all processors or on so many ranks as --ranks says; "
-                    "leave out mpirun "
-                    "or srun. On a cluster --jobs N writes the runs for SLURM",
-                    task.name));
-  }
+                    "leave out mpirun or srun. On a cluster --jobs N writes the runs for SLURM",
+                    task));
+}
+
+void analyse(const Task& task, const AnalysisArguments& arguments) {
+  refuseLauncher(task.name);
   const Deck deck = Deck::load(arguments.file, arguments.overrides, analysisSchema());
   refuseUnused(task, deck, arguments.overrides);
   std::vector<std::string> more{"--out", arguments.folder};
@@ -114,8 +115,9 @@ void addAnalysisCommands(CLI::App& app, Command& command) {
             "Run nothing: write the runs that are missing as an array of so many jobs for SLURM, each on the ranks "
             "of --ranks or of ranks_per_run.")
         ->check(CLI::Range(1, 1 << 24));
-    subcommand->callback(
-        [arguments, &command, &task] { command = {[arguments, &task] { analyse(task, *arguments); }}; });
+    subcommand->callback([arguments, &command, &task] {
+      command = {.work = [arguments, &task] { analyse(task, *arguments); }, .on = Command::On::FirstRank};
+    });
   }
 }
 
@@ -129,7 +131,7 @@ bool isAnalysis(const std::string& file) {
 }
 
 void checkAnalysis(const std::string& file, const std::vector<std::string>& overrides) {
-  if (placeOfProcess().rank != 0) return;
+  refuseLauncher("check");
   const AnalysisArguments arguments{file, {}, overrides};
   handOver("check", arguments, Deck::load(file, overrides, analysisSchema()), {});
 }

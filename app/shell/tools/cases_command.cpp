@@ -13,7 +13,6 @@
 
 #include "app/run/shipped_case.hpp"
 #include "app/run/shipped_files.hpp"
-#include "core/parallel_session.hpp"
 
 namespace lampblack::app {
 namespace {
@@ -48,16 +47,12 @@ void addCasesCommand(CLI::App& app, Command& command) {
   CLI::App* copied = cases->add_subcommand("copy", "Copy a case, with all that its decks name, to work on it.");
   copied->add_option("name", words->name, "A name of the list: flame1d/free_methane, or free_methane.")->required();
   copied->add_option("folder", words->folder, "Folder for the copy; without it, named as the case.");
-  const auto firstRank = [](auto work) {
-    return [work] {
-      if (placeOfProcess().rank == 0) work();
-    };
-  };
   // The callbacks of the subcommand come first.
-  copied->callback(
-      [words, firstRank, &command] { command = {firstRank([words] { copy(words->name, words->folder); })}; });
-  cases->callback([firstRank, copied, &command] {
-    if (!copied->parsed()) command = {firstRank(listCases)};
+  copied->callback([words, &command] {
+    command = {.work = [words] { copy(words->name, words->folder); }, .on = Command::On::FirstRank};
+  });
+  cases->callback([copied, &command] {
+    if (!copied->parsed()) command = {.work = listCases, .on = Command::On::FirstRank};
   });
 }
 
@@ -70,14 +65,14 @@ void addWhereCommand(CLI::App& app, Command& command) {
   where->add_option("part", *part, "One of them: cases, mechanisms or python; it is printed alone.")
       ->check(CLI::IsMember(std::vector<std::string>{"cases", "mechanisms", "python"}));
   where->callback([parts, part, &command] {
-    command = {[parts, part] {
-      if (placeOfProcess().rank != 0) return;
+    const auto tell = [parts, part] {
       if (!part->empty()) {
         std::cout << shipped(parts.at(*part)).string() << '\n';
         return;
       }
       for (const auto& [name, folder] : parts) std::cout << fmt::format("{:<10}  {}\n", name, shipped(folder).string());
-    }};
+    };
+    command = {.work = tell, .on = Command::On::FirstRank};
   });
 }
 

@@ -5,13 +5,11 @@
 #include <vector>
 
 #include "app/shell/python_program.hpp"
-#include "core/parallel_session.hpp"
 
 namespace lampblack::app {
 namespace {
 
 void plot(const std::vector<std::string>& arguments) {
-  if (placeOfProcess().rank != 0) return;
   replaceByPython({"pictures need", {"numpy", "h5py", "matplotlib"}, "python3-h5py python3-matplotlib"},
                   "lampblack.plots", arguments);
 }
@@ -22,7 +20,9 @@ void addPlotCommand(CLI::App& app, Command& command) {
   CLI::App* subcommand = app.add_subcommand("plot", "Make pictures of a run or study; --help for its options.");
   subcommand->prefix_command();
   subcommand->set_help_flag();  // the pictures' own
-  subcommand->callback([subcommand, &command] { command = {[words = subcommand->remaining()] { plot(words); }}; });
+  subcommand->callback([subcommand, &command] {
+    command = {.work = [words = subcommand->remaining()] { plot(words); }, .on = Command::On::FirstRank};
+  });
 }
 
 }  // namespace lampblack::app
