@@ -5,13 +5,11 @@ Usage: aggregates_run_test.py EXECUTABLE MPIEXEC...
 """
 
 import pathlib
-import signal
-import subprocess
 import sys
 import tempfile
-import time
 
 import running
+import stopping
 
 np = running.package("numpy")
 
@@ -73,16 +71,9 @@ def check_collisions(program, folder: pathlib.Path) -> None:
 
 def check_signal(executable: str, mpiexec: list, folder: pathlib.Path) -> None:
     process = running.Process(executable, mpiexec, 1)
-    stopped = folder / "stopped"
-    with subprocess.Popen([*process.command, "run", str(folder / "deck.yaml"), "--out", str(stopped), *running.settings("build.doublings=14", "build.aggregates=1000")],
-                          env=running.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as one:
-        begun = time.monotonic()
-        while not (stopped / "run.json").exists() and time.monotonic() < begun + 30:
-            time.sleep(0.05)
-        time.sleep(0.3)
-        one.send_signal(signal.SIGTERM)
-        _, err = one.communicate(timeout=60)
-    assert one.returncode == 128 + signal.SIGTERM and "in the middle of the repeats" in err, err
+    command = [*process.command, "run", str(folder / "deck.yaml"), *running.settings("build.doublings=14", "build.aggregates=1000")]
+    err = stopping.stopped_in_the_middle(command, folder / "stopped")
+    assert "in the middle of the repeats" in err, err
 
 
 def main(executable: str, *mpiexec: str) -> None:

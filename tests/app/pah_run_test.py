@@ -8,13 +8,11 @@ import csv
 import json
 import pathlib
 import re
-import signal
-import subprocess
 import sys
 import tempfile
-import time
 
 import running
+import stopping
 
 np = running.package("numpy")
 
@@ -102,15 +100,7 @@ def check_restarts(executable: str, mpiexec: list, folder: pathlib.Path, deck: p
     # A signal: what had ended is kept.
     stopped = folder / "stopped"
     process = running.Process(executable, mpiexec, 1)
-    with subprocess.Popen([*process.command, "run", str(deck), "--out", str(stopped), *running.settings("repeats=100000000")],
-                          env=running.environment(), stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as running_one:
-        begun = time.monotonic()
-        while not (stopped / "run.json").exists() and time.monotonic() < begun + 30:
-            time.sleep(0.05)
-        time.sleep(0.3)
-        running_one.send_signal(signal.SIGTERM)
-        _, err = running_one.communicate(timeout=60)
-    assert running_one.returncode == 128 + signal.SIGTERM, err
+    err = stopping.stopped_in_the_middle([*process.command, "run", str(deck), *running.settings("repeats=100000000")], stopped)
     done = int(re.search(r"after (\d+) molecules", err).group(1))
     running.run_deck(two, deck, stopped, "--restart", *running.settings(f"repeats={done + 100}"))
     running.run_deck(two, deck, folder / "left_alone", *running.settings(f"repeats={done + 100}"))

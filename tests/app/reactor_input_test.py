@@ -3,11 +3,9 @@
 Usage: reactor_input_test.py EXECUTABLE RANKS MPIEXEC...
 """
 
-import pathlib
-import re
 import sys
-import tempfile
 
+import mistakes
 import running
 
 HYDROGEN = running.SOURCE / "cases/mechanisms/hydrogen_h2o2_10.yaml"
@@ -277,34 +275,7 @@ MISTAKES = SOOT_MISTAKES + [
 
 def main(executable: str, ranks: str, *mpiexec: str) -> int:
     program = running.Program(executable, list(mpiexec), int(ranks))
-
-    def check(task: tuple) -> int:
-        (name, deck, old, new, expected), also_check = task
-        assert deck.count(old) == 1, f"{name}: '{old}' is not once in the deck"
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "deck.yaml"
-            path.write_text(deck.replace(old, new), encoding="utf-8")
-            # The first one as users start the program.
-            run = program.process_of_its_own if name == MISTAKES[0][0] else program
-            result = run("run", path, "--out", pathlib.Path(folder) / "out")
-            problems = [] if result.code == 2 else [f"exit code {result.code}"]
-            problems += running.differs_from_check(program, result, path) if also_check else []
-            lines = result.err.splitlines()
-            if not lines or not re.match(rf"lampblack: {re.escape(str(path))}:", lines[0]):
-                problems.append("does not start with the deck's name")
-            if any(line.startswith("lampblack: ") for line in lines[1:]) or result.out:
-                problems.append("says more than one message")
-            problems += [f"does not say \"{part}\"" for part in expected if part not in (lines or [""])[0]]
-            if (pathlib.Path(folder) / "out").exists():
-                problems.append("left something behind")
-            print(f"FAILED  {name}: {'; '.join(problems)}\n{result.err}" if problems else f"ok      {name}")
-            return 1 if problems else 0
-
-    # All messages on one rank; that only one of several ranks speaks does not need every one of them.
-    mistakes = MISTAKES if int(ranks) == 1 else MISTAKES[::6]
-    failures = sum(running.at_once(check, running.thinned(mistakes)))
-    print(f"{len(mistakes) - failures} passed, {failures} failed on {ranks} rank(s)")
-    return 1 if failures else 0
+    return 1 if mistakes.failures_of(program, MISTAKES) else 0
 
 
 sys.exit(main(*sys.argv[1:]))
