@@ -212,16 +212,20 @@ def check_wall_friction(folder):
     # With the factor for a Mach number of 0.2 a pressure that is CFL3D's is too large by what the factor is above one.
     more = (1 / 0.96**0.5 - 1) * np.interp(np.linspace(0.0525, 1.4475, 280), *known)
     assert abs(found["cp"]["CFL3D"]["apart_compressed"] / (np.abs(more - np.median(more)).max() / np.ptp(known[1])) - 1) < 1e-3, found
-    # Of the hump the friction's changes of sign, in chords, and the velocity before it.
+    # Of the hump the friction's changes of sign, in chords, the velocity before it, of which CFL3D's reference velocity is 1/1.0003 with
+    # SA and 1/0.9965 with SST, and the largest shear stress on rows that rise by a tenth of their length.
     x = 2.684 + 0.42 * np.linspace(-3, 2, 501)
     run = write_run(folder / "hump", x, np.linspace(0, 0.4, 5), lambda x, y: 300 + 0 * x, {"boundaries": {"entrance": {"velocity": 30.0}, "wall": {}}})
     with h5py.File(run / "results.h5", "r+") as file:
         centres, step, at = file["mesh/cellCentre"][()], file["steps/000003"], file.create_group("walls/wall")
         places = 0.5 * (x[1:] + x[:-1])
         chords = (places - 2.684) / 0.42
-        step["density"], step["eddy_viscosity"] = np.full(len(centres), 1.2), np.full(len(centres), 1e-4)
+        along, height = centres.T[:2]
+        step["density"], step["eddy_viscosity"] = np.full(len(centres), 1.2), 1e-3 * np.where(np.abs(height - 0.15) < 0.01, 1.2, 0.6)
         step["viscosity"], step["pressure"] = np.full(len(centres), 2e-5), np.zeros(len(centres))
-        step["velocity"] = np.stack([35.0 + 10 * (centres[:, 0] > 2.0), np.zeros(len(centres))], axis=1)
+        height = height + 0.1 * (along - 2.684) * (along > 2)
+        file["mesh/cellCentre"][:, 1] = height
+        step["velocity"] = np.stack([35.0 + (10 + 100 * height) * (along > 2), 7 * along + 50 * height], axis=1)
         for name, values in (("step", 0 * places + 3), ("x", places), ("friction_x", 0.6 * 35**2 * (chords - 0.66) * (chords - 1.26)),
                              ("friction_y", 0 * places), ("y_plus", 0 * places + 0.4)):
             at[name] = values
@@ -229,8 +233,15 @@ def check_wall_friction(folder):
     assert code == 0, err
     found = json.loads(told)
     assert np.allclose(found["runs"][0]["turns"], [0.66, 1.26], atol=1e-4), found
-    assert np.allclose(found["runs"][0]["cf"], [(x - 0.66) * (x - 1.26) for x in found["at"]], atol=1e-4), found
+    exact = np.array([(x - 0.66) * (x - 1.26) for x in found["at"]])
+    assert np.allclose(found["runs"][0]["cf"], 1.0003**2 * exact, rtol=1e-3, atol=5e-5), found
     assert abs(found["known"]["CFL3D"][1] - 0.00664) < 1e-5, found
+    shear, height = found["runs"][0]["shear"]["1.0"]
+    assert abs(shear / (1e-3 * (100 + 7) * (1.0003 / 35) ** 2) - 1) < 1e-6 and abs(height - 0.15 / 0.42 - 0.1) < 1e-3, found
+    code, told, err = called("compare_wall_friction", run, "--case", "turbulent_hump", "--model", "sst")
+    assert code == 0 and abs(float(told.split("cells:")[1].split()[0]) / (0.9965**2 * exact[0]) - 1) < 1e-3 and "stress at 1.3" in told, told + err
+    code, told, err = called("compare_wall_friction", run, "--case", "turbulent_hump", "--json")
+    assert code == 0 and np.allclose(json.loads(told)["runs"][0]["cf"], exact, rtol=1e-3, atol=5e-5), told + err
     code, _, err = called("compare_wall_friction", folder / "nowhere", "--case", "flat_plate")
     assert code == 2 and "nowhere" in err, err
 
