@@ -8,9 +8,9 @@
 #include "flow/cell_errors.hpp"
 #include "flow/discretisation/face_fluxes.hpp"
 #include "flow/field_registry.hpp"
-#include "flow/stepping/time_step.hpp"
 
 namespace lampblack::flow {
+
 TransportOperator::TransportOperator(const FlowContext& context, const State& state, Options options)
     : context_(context),
       options_(options),
@@ -244,66 +244,6 @@ void TransportOperator::finish(State& state) {
   });
 }
 
-void TransportOperator::recordBoundary(const State& state, double dt) {
-  const Mesh& m = context_.mesh;
-  const int n = state.species;
-  const int scalars = state.carriedCount();
-  boundary_ = {std::vector<double>(n, 0.0), std::vector<double>(n, 0.0), std::vector<double>(scalars, 0.0),
-               std::vector<double>(scalars, 0.0)};
-  boundary_.time = dt;
-  std::ranges::fill(boundaryFlows_, 0.0);
-  const auto book = [dt](double outward, double& in, double& out) {
-    (outward < 0.0 ? in : out) += dt * std::abs(outward);
-  };
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    faces_.massFractions(face, state.massFlux[face], row_);
-    const double* diffuses = &boundaryFlux_[static_cast<std::size_t>(face - m.interiorFaces) * n];
-    double* flows = &boundaryFlows_[3 * static_cast<std::size_t>(m.patch[face - m.interiorFaces])];
-    for (int k = 0; k < n; ++k) {
-      const double outward = state.massFlux[face] * row_[k] + diffuses[k];
-      book(outward, boundary_.speciesIn[k], boundary_.speciesOut[k]);
-      flows[0] -= outward;
-    }
-    for (int s = 0; s < scalars; ++s)
-      book(carried_.flux()[static_cast<std::size_t>(face) * scalars + s], boundary_.carriedIn[s],
-           boundary_.carriedOut[s]);
-    const double enthalpy = state.massFlux[face] * faces_.enthalpy[face] + heat_.enthalpy[face] + heat_.heat[face];
-    book(enthalpy, boundary_.enthalpyIn, boundary_.enthalpyOut);
-    flows[1] -= enthalpy;
-    flows[2] -= heat_.heat[face];
-  }
-}
-
-// The same for each cell, fitted to gases of 9 and 47 species.
-void TransportOperator::addCost(const Mesh&, CellCost& cost) const {
-  const double cell = options_.sweeps * (8.8 + 0.3 * static_cast<double>(context_.mechanism.numSpecies()));
-  for (double& own : cost.own) own += cell;
-}
-
-void TransportOperator::saveOrLoad(StateArchive& archive) {
-  // What others look at between two steps; the rest of the properties is evaluated where a step begins.
-  archive.cells("viscosity", properties_.viscosity, 1);
-  archive.cells("conductivity", properties_.conductivity, 1);
-  std::vector<double> seen{diagnostics_.continuityError, static_cast<double>(diagnostics_.pressureIterations),
-                           static_cast<double>(diagnostics_.speciesIterations), lastStep_};
-  archive.sums("boundary_flows", boundaryFlows_);
-  archive.shared("transport_diagnostics", seen);
-  diagnostics_ = {seen.at(0), static_cast<int>(seen.at(1)), static_cast<int>(seen.at(2))};
-  lastStep_ = seen.at(3);
-  if (archive.loading()) sweep_ = 0;  // of a step that was broken off
-  if (movesForOthers_) {
-    archive.faces("face_density", carried_.faceDensity(), 1);
-    archive.faces("drift_flux", carried_.driftFlux(), 1);
-    archive.cells("mean_molecular_weight", properties_.molecularWeight, 1);
-    if (archive.loading()) {
-      context_.halo.update(properties_.viscosity, 1);
-      context_.halo.update(properties_.molecularWeight, 1);
-    }
-  }
-  momentum_.saveOrLoad(archive);
-  expansion_.saveOrLoad(archive);
-}
-
 void TransportOperator::advance(State& state, double time, double dt) {
   const FlushDenormals flush;
   const Mesh& m = context_.mesh;
@@ -352,44 +292,6 @@ void TransportOperator::advance(State& state, double time, double dt) {
   lastStep_ = dt;
   momentum_.endStep();
   for (const auto& watcher : watchers_) watcher(boundary_);
-}
-
-double TransportOperator::pressureDrift(const State& state) {
-  double largest = 0.0;
-  for (const double drift : expansion_.pressureDrift(state)) largest = std::max(largest, std::abs(drift));
-  MPI_Allreduce(MPI_IN_PLACE, &largest, 1, MPI_DOUBLE, MPI_MAX, context_.mesh.comm);
-  return largest;
-}
-
-double TransportOperator::largestStep(const State& state) {
-  return convectiveTimeStep(context_.mesh, state, options_.courant);
-}
-
-std::vector<Quantity> TransportOperator::historyColumns() const {
-  return {{"pressure_drift", "1", "largest |p_eos - p0| / p0 at the end of the step, reactions and particles included"},
-          {"thermodynamic_pressure", "Pa", "uniform part of the pressure, which changes in a closed vessel"},
-          {"continuity_error", "1/s", "largest error of the projected velocity's divergence"},
-          {"pressure_iterations", "1", "of the pressure solve"},
-          {"species_iterations", "1", "of the implicit species diffusion"},
-          {"kinetic_energy", integralUnit(context_.mesh, "J"), "integral of half the density times velocity squared"},
-          {"enstrophy", integralUnit(context_.mesh, "kg/s^2"), "integral of half the density times vorticity squared"}};
-}
-
-std::vector<double> TransportOperator::historyValues(const State& state) {
-  const Integrals whole = integrals(state);
-  return {pressureDrift(state),
-          state.thermodynamicPressure,
-          diagnostics_.continuityError,
-          static_cast<double>(diagnostics_.pressureIterations),
-          static_cast<double>(diagnostics_.speciesIterations),
-          whole.kineticEnergy,
-          whole.enstrophy};
-}
-
-void TransportOperator::fields(const State&, const FieldSink& sink) const {
-  const auto owned = static_cast<std::size_t>(context_.mesh.owned);
-  sink({"viscosity", "Pa s", "dynamic viscosity"}, {properties_.viscosity.data(), owned});
-  sink({"conductivity", "W/m/K", "thermal conductivity"}, {properties_.conductivity.data(), owned});
 }
 
 }  // namespace lampblack::flow
