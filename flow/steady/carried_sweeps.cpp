@@ -113,18 +113,19 @@ double CarriedSweeps::findLeft(const State& state, const Problem& problem, int c
   return std::sqrt(sum);
 }
 
-void CarriedSweeps::solveCell(const State& state, const Problem& problem, int cell) {
+bool CarriedSweeps::solveCell(const State& state, const Problem& problem, int cell) {
   const auto c = static_cast<std::size_t>(cell);
   const double mass = context_.mesh.volume[c] * state.density[c];
   const std::span<double> x{&x_[c * n_], n_};
   std::ranges::fill(fed_, 0.0);
   problem.transport.addBrought(cell, x_, fed_);
   double first = 0.0;
+  bool isHeld = false;
   for (int step = 0; step < mostStepsOfCell; ++step) {
     findSources(state, problem, cell, x, true);
     const double before = findLeft(state, problem, cell, x);
     if (step == 0) first = before;
-    if (before <= (step == 0 ? 0.0 : cellReduction * first)) return;
+    if (before <= (step == 0 ? 0.0 : cellReduction * first)) break;
     for (std::size_t by = 0; by < n_; ++by)
       for (std::size_t s = 0; s < n_; ++s) {
         const double slope =
@@ -148,23 +149,28 @@ void CarriedSweeps::solveCell(const State& state, const Problem& problem, int ce
       if (findLeft(state, problem, cell, trial_) <= (1.0 - leastTaken * share) * before) break;
       share *= 0.5;
     }
+    isHeld = false;
     for (std::size_t s = 0; s < n_; ++s) {
+      isHeld = isHeld || std::abs(trial_[s] - (x[s] + share * change_[s])) > leastAmount;
       moved_ += mass * std::abs(trial_[s] - x[s]);
       x[s] = trial_[s];
     }
   }
+  return isHeld;
 }
 
-int CarriedSweeps::advance(State& state, const Problem& problem) {
+std::int64_t CarriedSweeps::advance(State& state, const Problem& problem) {
   const Mesh& m = context_.mesh;
   findOrder(state);
   prepare(state, problem);
   double first = 0.0;
   int sweeps = 0;
+  std::int64_t held = 0;
   while (sweeps < mostSweeps) {
     moved_ = 0.0;
+    held = 0;
     inEachCell(
-        m, [&](int c) { solveCell(state, problem, c); },
+        m, [&](int c) { held += solveCell(state, problem, c) ? 1 : 0; },
         [&](int i) { return order_[static_cast<std::size_t>(sweeps % 2 == 0 ? i : m.owned - 1 - i)]; });
     MPI_Allreduce(MPI_IN_PLACE, &moved_, 1, MPI_DOUBLE, MPI_SUM, m.comm);
     context_.halo.update(x_, static_cast<int>(n_));
@@ -175,7 +181,8 @@ int CarriedSweeps::advance(State& state, const Problem& problem) {
     for (std::size_t s = 0; s < n_; ++s)
       if (state.scalars[s].isTransported)
         state.carried[c * n_ + s] = state.density[c] * problem.scales[s] * x_[c * n_ + s];
-  return sweeps;
+  MPI_Allreduce(MPI_IN_PLACE, &held, 1, MPI_INT64_T, MPI_SUM, m.comm);
+  return held;
 }
 
 }  // namespace lampblack::flow

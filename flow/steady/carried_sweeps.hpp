@@ -5,6 +5,7 @@
 // zero. docs/theory/flow.md, "The steady state".
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -30,13 +31,15 @@ class CarriedSweeps {
     std::span<const double> rates;    // what is made in the state, per m^3 and s
     const std::vector<std::unique_ptr<Operator::CarriedInCells>>& sources;
   };
-  // Collective. The state's amounts become the new ones; its halo is not filled. How many sweeps.
-  int advance(State& state, const Problem& problem);
+  // Collective. The state's amounts become the new ones; its halo is not filled. In how many cells, of all ranks,
+  // limits held an amount back in the last sweep.
+  std::int64_t advance(State& state, const Problem& problem);
 
  private:
   void findOrder(const State& state);
   void prepare(const State& state, const Problem& problem);
-  void solveCell(const State& state, const Problem& problem, int cell);
+  // Whether limits held an amount back in the cell's last step.
+  bool solveCell(const State& state, const Problem& problem, int cell);
   // To rates_ and, where asked for, slopes_; per m^3 and s, at amounts over the scales.
   void findSources(const State& state, const Problem& problem, int cell, std::span<const double> x, bool slopes);
   // What is left of the cell's equations, each over how fast it is fed; their size, each over what there is.

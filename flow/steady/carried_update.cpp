@@ -144,6 +144,24 @@ double CarriedUpdate::limited(std::size_t scalar, double present, double change)
   return std::clamp(present + change, least, most);
 }
 
+bool CarriedUpdate::isHeld(std::size_t scalar, double present, double change) const {
+  return std::abs(limited(scalar, present, change) - (present + change)) > leastCounted * scales_[scalar];
+}
+
+// Of the change that was taken last.
+std::int64_t CarriedUpdate::heldCells() const {
+  std::int64_t held = 0;
+  for (std::size_t c = 0; c < shares_.size(); ++c)
+    for (std::size_t s = 0; s < n_; ++s) {
+      const std::size_t i = c * n_ + s;
+      if (!isHeld(s, start_[i], shares_[c] * scales_[s] * change_[i])) continue;
+      ++held;
+      break;
+    }
+  MPI_Allreduce(MPI_IN_PLACE, &held, 1, MPI_INT64_T, MPI_SUM, context_.mesh.comm);
+  return held;
+}
+
 // 1/s, of the amounts: what the cell's equations have left after a share of its change (none: before it), its
 // neighbours having changed by as much.
 double CarriedUpdate::leftOf(const State& state, int cell, double share) const {
@@ -212,7 +230,7 @@ void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
   }
 }
 
-int CarriedUpdate::sweep(State& state, const FlowResidual& residual, std::span<const double> inertia) {
+std::int64_t CarriedUpdate::sweep(State& state, const FlowResidual& residual, std::span<const double> inertia) {
   std::vector<double> rates(right_.size());
   for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = residual.rates().made.netOfCarried(i, state.carried);
   std::vector<std::unique_ptr<Operator::CarriedInCells>> sources;
@@ -233,18 +251,19 @@ int CarriedUpdate::solve(std::span<const double> right, std::span<double> change
   return iterations;
 }
 
-int CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
+std::int64_t CarriedUpdate::advance(State& state, const FlowResidual& residual, std::span<const double> inertia) {
   prepare(state, residual, inertia);
-  int iterations = 0;
+  std::int64_t held = 0;
   if (isByCell_) {
-    iterations = sweep(state, residual, inertia);
+    held = sweep(state, residual, inertia);
   } else {
-    iterations = system_.solve(right_, change_, carriedReduction, mostCarriedIterations).iterations;
+    system_.solve(right_, change_, carriedReduction, mostCarriedIterations);
     takeShares(state, residual);
+    held = heldCells();
   }
   for (Operator* op : operators_) op->setDiffusivities(state);
   state.updateHalo(context_.halo);
-  return iterations;
+  return held;
 }
 
 }  // namespace lampblack::flow

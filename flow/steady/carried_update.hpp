@@ -4,6 +4,7 @@
 // zero then.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -28,8 +29,8 @@ class CarriedUpdate {
 
   // Collective. The residual is of the state, what is carried at least; `inertia` (kg/s, owned cells): mass over the
   // cell's pseudo-time. The halo is filled then, and what the operators tell transport of their scalars is that of the
-  // new state. The iterations of the linear solver, or the sweeps.
-  int advance(State& state, const FlowResidual& residual, std::span<const double> inertia);
+  // new state. In how many cells, of all ranks, limits held an amount back.
+  std::int64_t advance(State& state, const FlowResidual& residual, std::span<const double> inertia);
 
   // The parts of advance() where all cells are one linear system. Collective: the system of a state,
   void prepare(const State& state, const FlowResidual& residual, std::span<const double> inertia);
@@ -38,16 +39,19 @@ class CarriedUpdate {
   int solve(std::span<const double> right, std::span<double> change, double reduction);
   // And, not collective, an amount per kg after a change, no further than a step may go.
   [[nodiscard]] double limited(std::size_t scalar, double present, double change) const;
+  // Whether that holds it back, by more than next to nothing.
+  [[nodiscard]] bool isHeld(std::size_t scalar, double present, double change) const;
   [[nodiscard]] std::span<const double> scales() const { return scales_; }
 
  private:
   void findScales(const State& state);
-  int sweep(State& state, const FlowResidual& residual, std::span<const double> inertia);
+  std::int64_t sweep(State& state, const FlowResidual& residual, std::span<const double> inertia);
   void assemble(const State& state, const FlowResidual& residual, std::span<const double> inertia);
   [[nodiscard]] double flowOf(const State& state, const FlowResidual& residual, int face, std::size_t scalar) const;
   void dropFastGrowth(const State& state);
   void takeShares(State& state, const FlowResidual& residual);
   void take(State& state, int cell) const;
+  [[nodiscard]] std::int64_t heldCells() const;
   void findMoved();
   [[nodiscard]] double leftOf(const State& state, int cell, double share) const;
 

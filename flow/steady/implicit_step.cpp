@@ -98,7 +98,7 @@ ImplicitStep::Result ImplicitStep::advance(State& state, std::span<const double>
   }
   for (int pass = 0; pass < carriedPassesInTime; ++pass) {
     residual_.evaluateCarried(state, pass > 0 ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
-    carried_.advance(state, residual_, inertia_);
+    result.held = carried_.advance(state, residual_, inertia_);
   }
   residual_.evaluate(state);
   if (left <= leftOfEasy) lengthen();

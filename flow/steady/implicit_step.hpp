@@ -48,6 +48,7 @@ class ImplicitStep {
     int vectors = 0;           // of the linear solver
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose last change was limited
+    std::int64_t held = 0;     // cells in which limits held back the last change of what is carried
   };
   // Collective. The residual is of the state then where the step is taken. `haste` (owned cells): of the time that
   // other cells have. NumericsError where the gas has no properties or rates.

@@ -229,11 +229,17 @@ NewtonKrylov::Result NewtonKrylov::advance(State& state, std::span<const double>
   const GasUpdate::Result taken = gas_.take(state, gasChange_);
   result.largestRise = taken.largestRise;
   result.limited = taken.limited;
-  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c)
+  for (std::size_t c = 0; c < static_cast<std::size_t>(context_.mesh.owned); ++c) {
+    bool isHeld = false;
     for (std::size_t s = 0; s < scalars_; ++s) {
       double& amount = state.carried[c * scalars_ + s];
-      amount = state.density[c] * carried_->limited(s, amount / state.density[c], change[c * perCell_ + pastFlow_ + s]);
+      const double perMass = amount / state.density[c], by = change[c * perCell_ + pastFlow_ + s];
+      isHeld = isHeld || carried_->isHeld(s, perMass, by);
+      amount = state.density[c] * carried_->limited(s, perMass, by);
     }
+    result.held += isHeld ? 1 : 0;
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &result.held, 1, MPI_INT64_T, MPI_SUM, context_.mesh.comm);
   return result;
 }
 

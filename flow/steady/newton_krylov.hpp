@@ -6,6 +6,7 @@
 // preconditioner (CarriedUpdate), with what the change of the flow brings it. docs/theory/flow.md, "Iterations".
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -39,6 +40,7 @@ class NewtonKrylov {
     int iterations = 0;        // of the linear solver
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose change was limited
+    std::int64_t held = 0;     // cells of all ranks in which limits held back what is carried, where that is unknown
     double reached = 0.0;      // what is left of the linear system
     Left before;               // what is left before the step, as leftInTime() has it
   };

@@ -133,15 +133,17 @@ void SteadyIteration::hurry() {
   }
 }
 
-void SteadyIteration::advanceCarried(State& state) {
+std::int64_t SteadyIteration::advanceCarried(State& state) {
   const double most = carried_->isByCell() ? mostSweptCourant : mostCarriedCourant;
   const double slower = flowCourant() / std::min(courant_, most);
   for (std::size_t c = 0; c < inertia_.size(); ++c) carriedInertia_[c] = slower * flowInertia_[c];
+  std::int64_t held = 0;
   for (int pass = 0; pass < carriedPasses; ++pass) {
     residual_.evaluateCarried(state, pass > 0 ? FlowResidual::Gas::Same : FlowResidual::Gas::Changed);
     if (pass > 0 && carried_->isByCell() && ofCarried(state, through(state)) < carriedShare * measure_) break;
-    carried_->advance(state, residual_, carriedInertia_);
+    held = carried_->advance(state, residual_, carriedInertia_);
   }
+  return held;
 }
 
 SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayCombine) {
@@ -176,7 +178,7 @@ SteadyIteration::Outcome SteadyIteration::attempt(State& state, bool mayCombine)
       accelerate(state);
     else
       mixing_.clear();
-    if (carried_ && !isOfGasAlone) advanceCarried(state);
+    if (carried_ && !isOfGasAlone) outcome.held = advanceCarried(state);
     residual_.evaluate(state);
     measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {

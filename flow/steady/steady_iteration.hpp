@@ -66,6 +66,8 @@ class SteadyIteration {
     bool newtonTakenBack = false;
     double largestRise = 0.0;  // K, that the linear system asked for
     std::int64_t limited = 0;  // cells where less than that was taken
+    // Cells in which limits held back the last change of what is carried (CarriedUpdate), such as k and omega.
+    std::int64_t held = 0;
   };
   // Collective. One iteration; leaves the state as it was where it fails, and the next one tries less. `allowed`:
   // not all where the flow is at rest but for species: what is a small difference of large rates, as of two species in
@@ -105,7 +107,7 @@ class SteadyIteration {
   void setInertia(const State& state);
   void hurry();
   [[nodiscard]] double flowCourant() const;
-  void advanceCarried(State& state);
+  std::int64_t advanceCarried(State& state);  // Outcome::held
   // Of the state that was evaluated: what is left of all equations over what goes through the cells.
   [[nodiscard]] double measure(const State& state) const;
   [[nodiscard]] double through(const State& state) const;  // kg/s, the sum of all faces

@@ -41,9 +41,10 @@ SteadyIteration::Outcome SteadyIteration::attemptTogether(State& state) {
     outcome.newtonIterations = step.iterations;
     outcome.largestRise = step.largestRise;
     outcome.limited = step.limited;
+    outcome.held = step.held;
     for (Operator* op : operators_) op->setDiffusivities(state);
     state.updateHalo(context_.halo);
-    if (carried_ && state.eddyViscosity.empty()) advanceCarried(state);
+    if (carried_ && state.eddyViscosity.empty()) outcome.held = advanceCarried(state);
     residual_.evaluate(state);
     measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {
@@ -73,6 +74,7 @@ SteadyIteration::Outcome SteadyIteration::stepInTime(State& state) {
     outcome.newtonIterations = step.vectors;
     outcome.largestRise = step.largestRise;
     outcome.limited = step.limited;
+    outcome.held = step.held;
     outcome.taken = step.taken;
     if (step.taken) measure_ = outcome.measure = measure(state);
   } catch (const NumericsError& error) {

@@ -54,6 +54,7 @@ TEST(SteadyMode, FindsATurbulentChannel) {
   EXPECT_NEAR(found.numbers("/walls/wall/y_plus").back(), 100.15, 0.01);
   EXPECT_NEAR(found.numbers("/walls/wall/heat_flux").back(), 0.0, 1e-3);
   EXPECT_LT(found.numbers("/history/iteration").back(), 300.0);
+  EXPECT_EQ(found.numbers("/history/held_cells").back(), 0.0);
   const std::vector<double> pressure = test::lastOf(found, "pressure"),
                             isStatic = test::lastOf(found, "static_pressure"),
                             energy = test::lastOf(found, "turbulent_kinetic_energy"),

@@ -183,13 +183,16 @@ TEST_F(CarriedUpdates, LetGrowWhatGrowsFast) {
   residual.evaluate(state);
   CarriedUpdate update(b.context, state, residual, operators);
   const std::vector<double> inertia(at(b.mesh.owned), 0.0);
+  std::vector<std::int64_t> held;
   for (int pass = 0; pass < 12; ++pass) {
-    update.advance(state, residual, inertia);
+    held.push_back(update.advance(state, residual, inertia));
     residual.evaluateCarried(state);
   }
   const double left = largest(b.mesh, [&](int c) { return std::abs(state.carried[at(c)] / GrowingDust::goal - 1.0); });
   report(fmt::format("lacks {:.2g}", left));
   EXPECT_LT(left, 0.01);
+  EXPECT_EQ(held.front(), b.mesh.totalCells);  // each would be far more than ten times what it was
+  EXPECT_EQ(held.back(), 0);
 }
 
 // Sources that are straight need no shares: one pass leaves what the linear system does.
@@ -209,7 +212,12 @@ TEST_F(CarriedUpdates, TakeAllWhereSourcesAreStraight) {
   residual.evaluate(state);
   const double before = left();
   CarriedUpdate update(b.context, state, residual, operators);
-  update.advance(state, residual, std::vector<double>(at(b.mesh.owned), 0.0));
+  const std::int64_t held = update.advance(state, residual, std::vector<double>(at(b.mesh.owned), 0.0));
+  // Where next to nothing is made a tenth is left.
+  const double tenths = integral(
+      b.mesh, [&](int c) { return std::abs(state.carried[at(c)] - 0.1) < 1e-12 ? 1.0 / b.mesh.volume[at(c)] : 0.0; });
+  EXPECT_NEAR(static_cast<double>(held), tenths, 1e-6);
+  EXPECT_GT(held, 0);
   residual.evaluateCarried(state);
   report(fmt::format("left {:.2g} of what there was", left() / before));
   EXPECT_LT(left(), 0.15 * before);

@@ -148,7 +148,7 @@ TEST(NewtonSteps, LeaveTheSquareWhereEddiesStir) {
   const double inertia = 1e6;  // kg/s
   const State before = state;
   const std::vector<double> rates = residual.rates().carried, mass = residual.rates().mass;
-  newton.advance(state, std::vector<double>(at(b.mesh.owned), inertia), 1e-8);
+  EXPECT_EQ(newton.advance(state, std::vector<double>(at(b.mesh.owned), inertia), 1e-8).held, 0);
   // The linear system leaves 1e-8 of all that was left, which in a cell with little left may be more than that.
   for (std::size_t s = 0; s < 2; ++s) {
     const auto expected = [&](int c) {
@@ -161,6 +161,40 @@ TEST(NewtonSteps, LeaveTheSquareWhereEddiesStir) {
       const std::size_t i = 2 * at(c) + s;
       EXPECT_NEAR((state.carried[i] - before.carried[i]) / before.density[at(c)], expected(c), 1e-3 * most);
     }
+  }
+}
+
+// What is carried is left a tenth of at least, and the cells where that holds it back are counted.
+TEST(NewtonSteps, CountTheCellsThatAreHeld) {
+  StirredChannel channel;
+  Box& b = *channel.box;
+  State& found = *channel.state;
+  bringToRest(channel);
+  FlowResidual residual(b.context, found, VelocityScheme::Limited, channel.operators);
+  GasUpdate gas(b.context, found, channel.operators);
+  CarriedUpdate carried(b.context, found, residual, channel.operators);
+  NewtonKrylov newton(b.context, found, residual, gas, 60, &carried, channel.operators);
+  for (const double off : {1e-4, 40.0}) {
+    State state = found;
+    for (int c = 0; c < b.mesh.owned; ++c)
+      if (b.mesh.naturalCell[at(c)] % 7 == 3) state.carried[at(2 * c)] *= 1.0 + off;
+    for (Operator* op : channel.operators) op->setDiffusivities(state);
+    state.updateHalo(b.halo);
+    residual.evaluate(state);
+    const State before = state;
+    const NewtonKrylov::Result result = newton.advance(state, std::vector<double>(at(b.mesh.owned), 0.0), 1e-4);
+    const double held = integral(b.mesh, [&](int c) {
+      for (std::size_t s = 0; s < 2; ++s) {
+        const double was = before.carried[2 * at(c) + s] / before.density[at(c)];
+        const double is = state.carried[2 * at(c) + s] / state.density[at(c)];
+        const double most = 10.0 * was + 1e-4 * carried.scales()[s];
+        if (std::abs(is - 0.1 * was) < 1e-12 * was || std::abs(is - most) < 1e-12 * most) return 1.0 / b.mesh.volume[c];
+      }
+      return 0.0;
+    });
+    report(fmt::format("{} cells held", result.held));
+    EXPECT_NEAR(static_cast<double>(result.held), held, 1e-6);
+    EXPECT_EQ(result.held > 0, off > 1.0);
   }
 }
 

@@ -41,6 +41,15 @@ void addAxis(FlowCase& flowCase);
 // InputError where a side of the box, or the surface of a solid, is not covered by boundaries, each once.
 void checkSides(const Deck& deck, FlowCase& flowCase);
 
+// The section initial, when boundaries, particles and the model of turbulence have been read.
+void readInitial(const Deck& deck, FlowCase& flowCase);
+
+// The section particles, when the chemistry has been read; what of it is there at the start, behind readInitial(); and
+// the section trajectories, behind both.
+void readSoot(const Deck& deck, FlowCase& flowCase);
+void readCarriedStart(const Deck& deck, FlowCase& flowCase);
+void readTrajectories(const Deck& deck, FlowCase& flowCase);
+
 // What a name is in those of files and of groups of the results: other characters than letters, digits, _, - and +
 // become _.
 std::string fileNameOf(std::string name);

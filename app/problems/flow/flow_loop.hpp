@@ -208,6 +208,8 @@ class FlowLoop {
   // How far from steady the run ended, for the closing report.
   [[nodiscard]] std::vector<std::string> steadyLines() const;
   void addSearch(JsonWriter& json) const;
+  // Of the last iteration: cells in which limits held back what is carried.
+  [[nodiscard]] std::int64_t heldCells() const;
   // Collective. By equation; nothing where an operator is stochastic, whose rates are those of single events, nor, with
   // a warning, where the gas has no properties or rates.
   [[nodiscard]] std::vector<ResidualNorm> residualNow();
@@ -259,7 +261,8 @@ class FlowLoop {
   std::optional<Steadiness> beforeIterations_;  // steadiness_ then
   std::vector<ResidualNorm> norms_;             // of the last state that was evaluated
   std::int64_t normsOf_ = -1;                   // its number of steps
-  std::array<double, 2> processorTime_{};       // s, of steps and of iterations, of all ranks
+  enum Way { InTime, Iterating };
+  std::array<double, 2> processorTime_{};  // s, by Way, of all ranks
   CellCosts costs_;
   bool repartitions_;  // whether the mesh may still be partitioned anew
   std::unique_ptr<FlowTables> tables_;
