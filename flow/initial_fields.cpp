@@ -28,7 +28,7 @@ void setInitialFields(const FlowContext& context, const InitialFields& fields, S
       state.enthalpy[c] = context.thermo.enthalpyMass(T, Y);
       state.density[c] = context.thermo.density(T, state.thermodynamicPressure, Y);
     } catch (const InputError& error) {
-      throw InputError(fmt::format("the start at {}: {}", placeText(m.centre[c], m.dimension), error.what()));
+      throw InputError(fmt::format("initial: the start at {}: {}", placeText(m.centre[c], m.dimension), error.what()));
     }
 }
 

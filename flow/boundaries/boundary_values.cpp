@@ -41,7 +41,7 @@ void BoundaryValues::set(double gas, double velocity) {
         evaluate(number_[row], gas, velocity, faces_[row]);
       } catch (const std::exception& error) {
         const auto& place = mesh_.faceCentre[static_cast<std::size_t>(number_[row])];
-        throw InputError(fmt::format("boundary {}, at {} and t = {:g} s: {}", mesh_.patchName(number_[row]),
+        throw InputError(fmt::format("boundaries.{}: at {} and t = {:g} s: {}", mesh_.patchName(number_[row]),
                                      placeText(place, mesh_.dimension), gas, error.what()));
       }
   });

@@ -49,7 +49,7 @@ void ScalarBoundaries::addVaryingRows(const FlowContext& context, const State& s
       if (const CarriedScalar& scalar = state.scalars[s]; !scalar.boundaries.empty()) try {
           value.value = scalar.boundaries[patch].at(place);
         } catch (const InputError& error) {
-          throw InputError(fmt::format("boundary {}, at {}: {}", context.boundaries[patch].name,
+          throw InputError(fmt::format("boundaries.{}: at {}: {}", context.boundaries[patch].name,
                                        placeText(place, mesh_.dimension), error.what()));
         }
       rows_.push_back(value);

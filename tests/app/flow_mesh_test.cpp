@@ -65,6 +65,17 @@ TEST(FlowMesh, InSpaceATableMayDependOnAllAxes) {
              "initial: {layer: none, composition: \"GAS: 1\", temperature: 300 K, table: start.csv}\n",
              folder.path() / "deck.yaml");
   EXPECT_NEAR(flowCase.initialFields.velocity[1]({0.5, 0.25, 0.125}, 0), 15.5, 1e-12);
+
+  MPI_Barrier(MPI_COMM_WORLD);
+  if (test::worldRank() == 0) std::ofstream(folder.path() / "start.csv") << "r,velocity_y\n0,1\n";
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_THAT(messageOf<InputError>([&] {
+                caseOf(spaceMesh, spacePeriodic,
+                       "initial: {layer: none, composition: \"GAS: 1\", temperature: 300 K, table: start.csv}\n",
+                       folder.path() / "deck.yaml");
+              }),
+              HasSubstr("start.csv: 'r' cannot be given here; expected one of: temperature, velocity_x, velocity_y, "
+                        "velocity_z, or X_ and the name of a species; places and times are columns x, y, z, t"));
 }
 
 TEST(FlowMesh, InSpaceRefusesWhatHasNoMeaning) {

@@ -169,7 +169,8 @@ def check_later_end(program, folder, deck, whole):
     out = folder / "later"
     run(program, deck, *running.settings(*SETTINGS, "checkpoint.at_end=true"), "--out", out)
     assert_equal(out, whole)
-    run(program, deck, *running.settings(*SETTINGS, *OTHER_START), "--out", out, "--restart")  # not a step
+    result = run(program, deck, *running.settings(*SETTINGS, *OTHER_START), "--out", out, "--restart")  # not a step
+    assert "no step is left: the checkpoint is of t = 2.8e-05 s, and time.end is 2.8e-05 s" in result.err, result.err
     assert_equal(out, whole)
     before = rows(out)
     result = run(program, deck, *running.settings(*STEADY, "time.end=32 us", "output.interval=3 us"), "--out", out, "--restart")

@@ -125,7 +125,7 @@ TEST(TurbulenceStarts, NeedEnergyAboveZeroAtEachFaceOfAnInlet) {
                       20.0),
         scratch.path() / "out");
   });
-  EXPECT_THAT(message, AllOf(HasSubstr("boundary in, at (0, 0.01"), HasSubstr("are to be above zero, found -0.")));
+  EXPECT_THAT(message, AllOf(HasSubstr("boundaries.in: at (0, 0.01"), HasSubstr("are to be above zero, found -0.")));
   EXPECT_TRUE(test::sameOnAllRanks(message));
 }
 

@@ -176,7 +176,8 @@ TEST(MechanismErrors, EquationsWithoutBlanksSayWhatIsMissing) {
   for (const char* entry :
        {"equation: H+O2 <=> HO2, rate-constant: [1, 0, 0]", "equation: H+O2<=>HO2, rate-constant: [1, 0, 0]"})
     EXPECT_THAT(reactionMessage(entry), HasSubstr("'H+O2' is not declared in the phase; expected blanks around '+'"));
-  EXPECT_THAT(reactionMessage("equation: H + O3 <=> HO2, rate-constant: [1, 0, 0]"), AllOf(HasSubstr("'O3' is not"), Not(HasSubstr("blanks"))));
+  EXPECT_THAT(reactionMessage("equation: H + O3 <=> HO2, rate-constant: [1, 0, 0]"),
+              AllOf(HasSubstr("'O3' is not"), Not(HasSubstr("blanks"))));
 }
 
 TEST(MechanismErrors, UnknownKeysNameTheNearest) {

@@ -69,7 +69,7 @@ TEST_F(VaryingBoundaries, SayWhereAValueCannotBe) {
   in.condition.varies.gas.temperature = [](const Place& x, double) { return x[1] > 0.8 * size ? 5000.0 : 300.0; };
   Box hot = box(in, outlet());
   EXPECT_THAT(messageOf<InputError>([&] { hot.context.varying->set(0.0, 0.0); }),
-              testing::AllOf(testing::HasSubstr("boundary xmin, at (0, 0.00875) m and t = 0 s"),
+              testing::AllOf(testing::HasSubstr("boundaries.xmin: at (0, 0.00875) m and t = 0 s"),
                              testing::HasSubstr("from 200 to 4000 K, found 5000 K")));
   in.condition.varies.gas = {{}, {{gas.mechanism.speciesIndex("H2"), [](const Place&, double) { return 1.2; }}}};
   Box rich = box(in, outlet());

@@ -43,7 +43,7 @@ TEST(InitialFields, LieOverTheState) {
   }
   fields.gas.temperature = [](const Place&, double) { return 10.0; };
   EXPECT_THAT(messageOf<InputError>([&] { setInitialFields(box.context, fields, state); }),
-              testing::AllOf(testing::HasSubstr("the start at ("), testing::HasSubstr("found 10 K")));
+              testing::AllOf(testing::HasSubstr("initial: the start at ("), testing::HasSubstr("found 10 K")));
 }
 
 }  // namespace

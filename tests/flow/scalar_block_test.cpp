@@ -83,7 +83,7 @@ TEST(ScalarBlocks, AToyVariesOverAnInlet) {
   toy.given["ymin"].varies = [](const Vector3&, double) -> double { throw InputError("not here"); };
   State wrong = channel.stateOf({toy.block(channel.box.context)});
   const std::string message = messageOf<InputError>([&] { const TransportOperator other(channel.box.context, wrong); });
-  EXPECT_NE(message.find("boundary ymin, at ("), std::string::npos) << message;
+  EXPECT_NE(message.find("boundaries.ymin: at ("), std::string::npos) << message;
   EXPECT_NE(message.find("not here"), std::string::npos) << message;
 }
 

@@ -70,6 +70,11 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
   earlierRetried_ = retried_;
   restart_ = checkpoint;
   wallLimit_.recordCheckpoint(secondsSinceStart() - start);  // reading it; writing is no faster
+  if (!search_ && time_ >= case_.time.end * (1.0 - 1e-12))
+    printWarnings(
+        {fmt::format("no step is left: the checkpoint is of t = {:.6g} s, and time.end is {:.6g} s; a later "
+                     "time.end goes on",
+                     time_, case_.time.end)});
 }
 
 void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {

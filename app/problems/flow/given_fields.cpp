@@ -81,7 +81,9 @@ void GivenFields::readTable(const Deck& deck, const std::string& section, const 
   const auto dimensionOf = [&](const std::string& name) -> std::optional<units::Dimension> {
     if (name.starts_with(moleFraction)) return units::dimensionless;
     const auto known = names.find(name);
-    if (known == names.end()) throw notGivenHere(name, names);
+    if (known == names.end())
+      throw InputError(fmt::format("{}; places and times are columns {}, t", notGivenHere(name, names).what(),
+                                   fmt::join(axes, ", ")));
     return known->second;
   };
   deck.at(key, [&] {
