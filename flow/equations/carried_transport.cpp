@@ -140,6 +140,24 @@ void CarriedTransport::advance(State& state, const Gas& gas, double dt) {
       if (state.scalars[s].isTransported) state.carried[c * n + s] = content[c * n + s] / m.volume[c];
 }
 
+// What turbulence has at a boundary that holds it counts in its slopes beside it: there it may fall to nothing within
+// the cell. What is stirred has layers there of which the cells see nothing.
+void CarriedTransport::findHeld(const State& state, const ScalarBoundaries& boundaries) const {
+  const Mesh& m = context_.mesh;
+  const std::size_t n = state.scalars.size();
+  known_.assign(static_cast<std::size_t>(m.boundaryFaces()) * n, BoundaryData::ZeroSlope);
+  held_.assign(known_.size(), 0.0);
+  for (int face = m.interiorFaces; face < m.faces; ++face) {
+    const std::span<const ScalarBoundary> given = boundaries.at(face);
+    for (std::size_t s = 0; s < n; ++s) {
+      if (!given[s].isHeld || state.scalars[s].isStirred) continue;
+      const std::size_t i = static_cast<std::size_t>(face - m.interiorFaces) * n + s;
+      known_[i] = BoundaryData::Value;
+      held_[i] = given[s].value;
+    }
+  }
+}
+
 void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces, const GasProperties& properties,
                                      std::span<double> conductance, std::span<double> flux) const {
   const Mesh& m = context_.mesh;
@@ -150,7 +168,8 @@ void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces,
     for (int c = 0; c < m.cells; ++c)
       for (int s = 0; s < n; ++s) perMass_[c * n + s] = state.carried[c * n + s] / state.density[c];
     perMassGradient_.resize(perMass_.size() * m.dimension);
-    gradient_.compute(perMass_, {}, n, perMassGradient_, nothingPasses_);
+    if (known_.empty()) findHeld(state, faces.carriedBoundaries());
+    gradient_.compute(perMass_, held_, n, perMassGradient_, known_);
     context_.halo.update(perMassGradient_, n * m.dimension);
   }
   for (int face = m.interiorFaces; face < m.faces; ++face) {
@@ -168,6 +187,8 @@ void CarriedTransport::diffusiveFlux(const State& state, const FaceState& faces,
       g = taken * passes;
       flux[face * n + s] =
           g * state.carried[i] / state.density[m.low[face]] - takenByWall(-drift, diffusion) * passes * given[s].value;
+      if (m.isOblique() && !state.scalars[s].isStirred)
+        flux[face * n + s] -= g * m.distance[face] * faceSlope(m, face, m.oblique[face], perMassGradient_, n, s);
     }
   }
   for (int face = 0; face < m.interiorFaces; ++face) {

@@ -25,8 +25,7 @@ class CarriedTransport {
         gradient_(context.mesh),
         flux_(static_cast<std::size_t>(context.mesh.faces) * state.scalars.size(), 0.0),
         driftFlux_(static_cast<std::size_t>(state.scalars.empty() ? 0 : context.mesh.faces), 0.0),
-        faceDensity_(driftFlux_.size(), 0.0),
-        nothingPasses_(static_cast<std::size_t>(context.mesh.boundaryFaces()), BoundaryData::ZeroSlope) {}
+        faceDensity_(driftFlux_.size(), 0.0) {}
 
   // The gas of a sweep: the step's start, and its mean with what the last sweep found (both the state itself in the
   // first sweep), viscosity (Pa s, cells) and values at faces of that mean, and what the gas is advanced with.
@@ -70,6 +69,7 @@ class CarriedTransport {
                                      int face, int scalar) const;
   void convectiveFlux(const State& state, const Gas& gas);
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
+  void findHeld(const State& state, const ScalarBoundaries& boundaries) const;
   void addCrossed(std::span<const double> flux);
   [[nodiscard]] std::size_t firstOfBoundary() const;  // in flux()
   [[nodiscard]] bool hasDriftToWall(const FaceState& faces, int face) const;
@@ -84,8 +84,9 @@ class CarriedTransport {
   std::vector<double> flux_, driftFlux_, faceDensity_;
   // Of what is carried per mass of gas, where steps are oblique to faces.
   mutable std::vector<double> perMass_, perMassGradient_;
+  mutable std::vector<BoundaryData> known_;  // of each scalar at each boundary face
+  mutable std::vector<double> held_;
   mutable std::vector<double> diffusivity_;  // with that of the eddies; unused in laminar flow
-  std::vector<BoundaryData> nothingPasses_;
 };
 
 }  // namespace lampblack::flow

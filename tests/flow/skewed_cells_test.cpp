@@ -6,6 +6,7 @@
 #include "flow/discretisation/limiter.hpp"
 #include "flow/discretisation/neighbour_bounds.hpp"
 #include "flow/equations/face_state.hpp"
+#include "flow/equations/flow_residual.hpp"
 #include "flow/equations/momentum_forces.hpp"
 #include "flow/equations/pressure_force.hpp"
 #include "flow/stepping/finite_state.hpp"
@@ -212,6 +213,28 @@ TEST(FiniteState, LooksAtAllThreeComponentsAndSaysWhere) {
   const auto message = messageOf<NumericsError>([&] { raiseNotFinite(box.context, state); });
   EXPECT_THAT(message, testing::HasSubstr("the velocity is nan"));
   EXPECT_THAT(message, testing::MatchesRegex(".*at \\(.*, .*, .*\\) m.*")) << "three coordinates";
+}
+
+// A variable of turbulence that boundaries hold diffuses in a linear field as much into each cell as out of it, those
+// beside boundaries too.
+TEST(CarriedOnSkewedCells, LinearValuesThatBoundariesHoldStay) {
+  for (const Cells cells : {Cells::Quadrilaterals, Cells::Triangles}) {
+    Box box = skewedBox(cells);
+    const Mesh& m = box.mesh;
+    for (BoundaryCondition& wall : box.context.boundaries) wall.slip = false;
+    const auto linear = [](const Vector3& x, double) { return 5.0 + 2e3 * x[0] - 1e3 * x[1]; };
+    ScalarBlock block{"turbulence", {{.name = "k", .unit = "m^2/s^2", .description = "", .isStirred = false}}};
+    block.scalars[0].boundaries.assign(box.context.boundaries.size(), {.isHeld = true, .varies = linear});
+    const std::vector<double> air = box.gas.massFractions("O2: 0.21, N2: 0.79");
+    State state = box.stateWith({block}, [&](const Vector3&) { return Box::Local{{}, 300.0, air}; });
+    constexpr double D = 1e-4;  // m^2/s
+    std::ranges::fill(state.carriedDiffusivity, D);
+    for (int c = 0; c < m.cells; ++c) state.carried[at(c)] = state.density[at(c)] * linear(m.centre[at(c)], 0.0);
+    FlowResidual residual(box.context, state, VelocityScheme::Limited, {});
+    residual.evaluate(state);
+    const double through = state.density[0] * D * 2e3 * 1e-3 / 6;  // of a cell's side
+    for (const double rate : residual.rates().carried) EXPECT_NEAR(rate / through, 0.0, 1e-9);
+  }
 }
 
 }  // namespace
