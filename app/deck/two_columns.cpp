@@ -55,7 +55,15 @@ std::optional<double> numberIn(const std::string& field) {
   return status == std::errc{} ? value : std::numeric_limits<double>::infinity();
 }
 
-// The two numbers of a line; with decimal commas where semicolons or blanks part them, "0,5;300".
+// "1,200", which may be 1.2 or 1200; "0,200" and "1,20" may not.
+bool mayHaveThousands(const std::string& field) {
+  const std::size_t comma = field.find(','), begin = field.find_first_not_of("+-");
+  return comma != std::string::npos && field[begin] != '0' && comma > begin && comma - begin <= 3 &&
+         field.size() - comma == 4 && field.find_first_not_of("0123456789", comma + 1) == std::string::npos;
+}
+
+// The two numbers of a line; with decimal commas where semicolons or blanks part them, "0,5;300". InputError where
+// blanks part them and a comma may be of thousands.
 std::optional<std::array<double, 2>> numbersIn(const std::string& line) {
   const auto two = [](const std::vector<std::string>& fields) -> std::optional<std::array<double, 2>> {
     if (fields.size() != 2) return std::nullopt;
@@ -66,8 +74,17 @@ std::optional<std::array<double, 2>> numbersIn(const std::string& line) {
   if (const auto numbers = two(fieldsOf(line, separatorOf(line).value_or(' ')))) return numbers;
   for (const char separator : {';', ' '}) {
     std::vector<std::string> fields = fieldsOf(line, separator);
+    const auto unclear = separator == ' ' ? std::ranges::find_if(fields, mayHaveThousands) : fields.end();
+    const std::string field = unclear == fields.end() ? std::string() : *unclear;
     std::ranges::transform(fields, fields.begin(), withDecimalPoint);
-    if (const auto numbers = two(fields)) return numbers;
+    const auto numbers = two(fields);
+    if (!numbers) continue;
+    if (!field.empty())
+      throw InputError(
+          fmt::format("the comma of '{}' may be that of thousands; write a decimal point, or part the "
+                      "columns by semicolons",
+                      field));
+    return numbers;
   }
   return std::nullopt;
 }
@@ -146,7 +163,12 @@ TwoColumns readTwoColumns(const std::filesystem::path& path, const units::Dimens
       }
       continue;
     }
-    const auto numbers = numbersIn(line);
+    std::optional<std::array<double, 2>> numbers;
+    try {
+      numbers = numbersIn(line);
+    } catch (const InputError& error) {
+      refuse(error.what());
+    }
     if (!numbers) refuse(fmt::format("expected two numbers, found '{}'", trimmed(line)));
     const double point = pointColumn.inSI((*numbers)[0]), value = valueColumn.inSI((*numbers)[1]);
     if (!points.empty() && !(point > points.back()))

@@ -87,12 +87,16 @@ TEST(ReactorCase, AProfileFileLosesNoLine) {
   EXPECT_EQ(profileOf("time T\n 0 300\n\n# half way\n 1\t400\n"), "300 400 ");
   EXPECT_EQ(profileOf("time [s];T [degC]\n0;26.85\n1; 126.85\n", 1.0), "300 400 at 400");
   for (const char* text : {"0,0;300\n1,0;400\n", "0;300\n1;400,0\n", "0\t300,0\n1\t400,0\n", "0,0 300,0\n1 400\n",
-                           "time [s];T [K];\n0,0;300\n1,0;400,0\n"})
+                           "time [s];T [K];\n0,0;300\n1,0;400,0\n", "0,000 300\n0,500 400\n", "0;300,000\n1;400,000\n"})
     EXPECT_EQ(profileOf(text), "300 400 ") << "decimal commas: " << text;
   for (const auto& [text, message] : std::vector<std::pair<std::string, std::string>>{
            {"0,nan\n1,400\n", "profile.csv:1: expected two numbers, found '0,nan'"},
            {"nan,nan\n1,400\n", ":1: expected two numbers, found 'nan,nan'"},
            {"0,0;300;1\n", ":1: expected two numbers, found '0,0;300;1'"},
+           {"0,0 300\n1,200 400\n", ":2: the comma of '1,200' may be that of thousands; write a decimal point"},
+           {"0\t300,000\n", ":1: the comma of '300,000' may be that of thousands"},
+           {"0 12,345,678\n", ":1: expected two numbers, found '0 12,345,678'"},
+           {"12,345,678;300\n", ":1: expected two numbers, found '12,345,678;300'"},
            {"0,0,300\n", ":1: expected two numbers, found '0,0,300'"},
            {"0,T\n1,400\n", ":1: expected two numbers, found '0,T'"},
            {"time,T\ntime,T\n1,400\n", ":2: expected two numbers"},
