@@ -161,6 +161,7 @@ TEST(CarriedSweeps, EndAsTheLinearSystemDoes) {
   EXPECT_LT(other.settle(1e-11, 200), 200);
   for (std::size_t i = 0; i < 2 * at(one.b.mesh.owned); ++i)
     EXPECT_NEAR(one.state.carried[i], other.state.carried[i], 1e-9 * std::abs(other.state.carried[i])) << i;
+  for (CarriedAtRest* of : {&one, &other}) EXPECT_EQ(of->update->advance(of->state, of->residual, of->inertia), 0);
 }
 
 // What is far less than what counts as nothing has no residual to speak of, and all of it where that is not known.
