@@ -42,6 +42,12 @@ struct TurbulentCell {
   std::array<Vector3, most> gradients{};
   // Of the second variable's: what differences see beside the products of the gradients (Gradient::Beyond).
   double productBeyond = 0.0, squareBeyond = 0.0;
+  // Of models of one variable that go by the strain's slope: the neighbours towards which the variable rises and falls
+  // most steeply. Without such a neighbour its value is the cell's own.
+  struct Neighbour {
+    double value = 0.0, distance = 0.0;  // distance: m, between the centres
+  };
+  std::optional<Neighbour> above, below;
 };
 
 struct TurbulentRates {

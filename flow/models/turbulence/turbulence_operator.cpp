@@ -159,10 +159,32 @@ void TurbulenceOperator::findRates(const State& state) {
     for (std::size_t v = 0; v < count_; ++v)
       for (std::size_t i = 0; i < d; ++i) cell.gradients[v][i] = valueGradient_[(c * count_ + v) * d + i];
   }
+  if (count_ == 1 && model_->needsStrainGradient()) findNeighbours();
   if (model_->usesWallLaw()) findWallLaw(state);
   model_->evaluate(cells_, rates_);
   std::ranges::copy(rates_, modelled_.begin());
   areRatesKnown_ = true;
+}
+
+// Towards which the variable rises and falls most steeply, with the values that are held at boundaries.
+void TurbulenceOperator::findNeighbours() {
+  const Mesh& m = context_.mesh;
+  for (TurbulentCell& cell : cells_)
+    cell.above = cell.below = TurbulentCell::Neighbour{.value = cell.values[0], .distance = 1.0};
+  const auto see = [&](int c, double value, double distance) {
+    if (c < 0 || c >= m.owned) return;
+    TurbulentCell& cell = cells_[static_cast<std::size_t>(c)];
+    const double own = cell.values[0], slope = (value - own) / distance;
+    if (slope > (cell.above->value - own) / cell.above->distance) cell.above = {value, distance};
+    if (slope < (cell.below->value - own) / cell.below->distance) cell.below = {value, distance};
+  };
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[face], high = m.high[face];
+    const int boundary = face - m.interiorFaces;
+    if (high < 0 && known_[boundary] != BoundaryData::Value) continue;
+    see(low, high < 0 ? boundaryValues_[boundary] : values_[high], m.distance[face]);
+    see(high, values_[low], m.distance[face]);
+  }
 }
 
 void TurbulenceOperator::evaluate(const State& state, Tangents tangents) {

@@ -89,6 +89,7 @@ class TurbulenceOperator : public Operator {
   [[nodiscard]] bool isOtherFlow(const State& state);
   void findFlow(const State& state);
   void findRates(const State& state);
+  void findNeighbours();
   void linearise();
   void findLayers();
   void findWallLaw(const State& state);
