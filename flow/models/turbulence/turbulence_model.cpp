@@ -43,6 +43,17 @@ const std::array rows{
 
 }  // namespace
 
+double slopeAlongStrain(const TurbulentCell& cell) {
+  constexpr double most = 2.0;
+  const double product = dot(cell.strainSlope, cell.gradients[0]), steepness = length(cell.strainSlope);
+  const auto towards = [&](const TurbulentCell::Neighbour& neighbour) {
+    return most * steepness * (neighbour.value - cell.values[0]) / neighbour.distance;
+  };
+  if (product > 0.0 && cell.above) return std::min(product, std::max(towards(*cell.above), 0.0));
+  if (product < 0.0 && cell.below) return std::max(product, std::min(towards(*cell.below), 0.0));
+  return product;
+}
+
 std::span<const TurbulenceRow> turbulenceModels() {
   return rows;
 }

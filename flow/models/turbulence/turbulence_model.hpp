@@ -47,8 +47,14 @@ struct TurbulentCell {
   struct Neighbour {
     double value = 0.0, distance = 0.0;  // distance: m, between the centres
   };
-  std::optional<Neighbour> above, below;
+  std::optional<Neighbour> above{}, below{};
 };
+
+// grad ln S . grad of the first variable, in its unit over m^2: by no more than twice what the slopes towards the
+// neighbours above and below say, as slopes of convection are limited. A term nu~ grad ln S . grad nu~ carries nu~
+// towards the lower strain and makes none where nu~ is largest; slopes over three values say otherwise beside a wall,
+// where nu~ falls to zero in a layer thinner than the cell.
+[[nodiscard]] double slopeAlongStrain(const TurbulentCell& cell);
 
 struct TurbulentRates {
   double eddyViscosity = 0.0;                                // m^2/s

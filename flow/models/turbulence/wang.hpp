@@ -21,21 +21,6 @@ struct WangModel {
     return {stream.viscosity * dampedRatio(stream.eddyViscosity / stream.viscosity, cw), 0.0};
   }
 
-  // 1/s: grad ln S . grad nu~, by no more than twice what the slopes towards the neighbours above and below say.
-  // gamma nu~ grad ln S . grad nu~ moves nu~ towards the lower strain and makes none of its own: where nu~ is largest
-  // it adds nothing. Slopes over three values can say otherwise beside a wall, where nu~ falls to zero in a layer
-  // thinner than the cell.
-  [[nodiscard]] static double crossSlope(const TurbulentCell& cell, double n) {
-    constexpr double most = 2.0;
-    const double product = dot(cell.strainSlope, cell.gradients[0]), steepness = length(cell.strainSlope);
-    const auto towards = [n, steepness](const TurbulentCell::Neighbour& neighbour) {
-      return most * steepness * (neighbour.value - n) / neighbour.distance;
-    };
-    if (product > 0.0 && cell.above) return std::min(product, std::max(towards(*cell.above), 0.0));
-    if (product < 0.0 && cell.below) return std::max(product, std::min(towards(*cell.below), 0.0));
-    return product;
-  }
-
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
     const double nu = cell.viscosity, n = std::max(cell.values[0], 1e-12 * nu), S = std::max(cell.strain, leastStrain);
     const double d = cell.distance, X = n / nu, cube = X * X * X;
@@ -49,7 +34,7 @@ struct WangModel {
     rates.diffusivity[0] = nu + alpha * n;
     rates.source[0] = beta * n * S;
     const Vector3 &slope = cell.gradients[0], &ofStrain = cell.strainSlope;
-    rates.add(0, gamma * n * crossSlope(cell, n), n);
+    rates.add(0, gamma * n * slopeAlongStrain(cell), n);
     rates.add(0, c1 * (1.0 - F1) * n * n * cell.strainBend, n);
     const double most = c3 * dot(slope, slope), byStrain = n * n * dot(ofStrain, ofStrain);
     if (most > 0.0) rates.add(0, -c2 * (1.0 - F1) * most * std::tanh(byStrain / most), n);
