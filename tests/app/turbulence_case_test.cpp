@@ -72,6 +72,8 @@ TEST(TurbulenceCase, RefusesWhatCannotBe) {
       {{"turbulence={model: none, schmidt: 0.7}"}, {"turbulence.schmidt"}},
       {{"turbulence={model: none, wall_distance: infinite}"}, {"turbulence.wall_distance"}},
       {{sa, "turbulence.walls=automatic"}, {"turbulence.walls"}},
+      {{"turbulence.model=k_epsilon", "turbulence.walls=resolved"},
+       {"turbulence.walls", "no form of its own", "'automatic'"}},
       {{"turbulence.model=les"}, {"turbulence.model", "les", "k_epsilon"}},
       {{"turbulence.energy=0 m^2/s^2"}, {"turbulence.energy"}},
       {{"turbulence.energy=-1 m^2/s^2"}, {"turbulence.energy"}},

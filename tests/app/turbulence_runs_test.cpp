@@ -81,7 +81,8 @@ std::string nameOf(const testing::TestParamInfo<std::string>& parameter) {
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(One, TurbulenceRuns, testing::Values("k_epsilon", "sst, walls: automatic"), nameOf);
+INSTANTIATE_TEST_SUITE_P(One, TurbulenceRuns,
+                         testing::Values("k_epsilon", "sst, walls: automatic", "k_epsilon, walls: automatic"), nameOf);
 INSTANTIATE_TEST_SUITE_P(Long, TurbulenceRuns, testing::ValuesIn(eachModel()), nameOf);
 INSTANTIATE_TEST_SUITE_P(Long, RunsWithoutEddies, testing::ValuesIn(eachModel()), nameOf);
 

@@ -395,6 +395,31 @@ TEST(WallLaw, AModelOfOmegaHasBothLayersAtOnce) {
   EXPECT_THROW((void)turbulenceModel("sa", {.blendsLayers = true}), InputError);
 }
 
+// Beside a wall a k-epsilon model that resolves the layers has epsilon of both: 2 nu k/y^2 and u*^3/(kappa y), the root
+// of their squares' sum.
+TEST(WallLaw, AModelOfEpsilonHasBothLayersAtOnce) {
+  for (const double k : {0.5, 1e-5}) {
+    Corner corner(k, "k_epsilon", true);
+    const Mesh& m = corner.box.mesh;
+    corner.box.context.wallDistance.assign(at(m.owned), 0.005);
+    TurbulenceOperator turbulence(corner.box.context, corner.state, corner.model, corner.properties);
+    State::Balance rates = corner.state.balance;
+    turbulence.addRates(corner.state, rates);
+    int beside = 0;
+    for (int c = 0; c < m.owned; ++c) {
+      if (m.centre[at(c)][0] > 0.01 && m.centre[at(c)][1] > 0.01) continue;
+      ++beside;
+      const double rho = corner.state.density[at(c)], nu = corner.properties.viscosity[at(c)] / rho;
+      const double friction = std::pow(0.09, 0.25) * std::sqrt(k), y = 0.005;
+      const double exact = std::hypot(2.0 * nu * k / (y * y), std::pow(friction, 3) / (0.41 * y));
+      const double held = rates.carried[at(3 * c + 2)] / rho / rates.carriedSink[at(3 * c + 2)];
+      EXPECT_NEAR(held / exact, 1.0, 1e-9);
+    }
+    MPI_Allreduce(MPI_IN_PLACE, &beside, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
+    EXPECT_EQ(beside, 4);
+  }
+}
+
 // y+ and friction that are told; walls do not hold k and epsilon.
 TEST(WallLaw, TellsFrictionAndWhatIsOutOfItsRange) {
   for (const double k : {0.5, 1e-5}) {

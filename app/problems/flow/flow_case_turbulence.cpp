@@ -74,18 +74,19 @@ FreeStream streamOf(const Deck& deck, const BoundaryCondition& boundary, FlowCas
 
 void addTurbulenceKeys(DeckSchema& schema) {
   SectionKeys keys("");
-  std::vector<std::string> names{"none"}, described, ofOmega, ofEnergy;
+  std::vector<std::string> names{"none"}, described, blended, ofEnergy;
   for (const TurbulenceRow& row : turbulenceModels()) {
     names.emplace_back(row.name);
     described.push_back(fmt::format("{}: {}", row.name, row.description));
-    if (turbulenceModel(row.name)->wallBeta() > 0.0) ofOmega.emplace_back(row.name);
+    if (turbulenceModel(row.name)->wallBeta() > 0.0) blended.emplace_back(row.name);
     if (turbulenceModel(row.name)->knowsEnergy()) ofEnergy.emplace_back(row.name);
   }
   const std::vector<std::string> models(names.begin() + 1, names.end());
   keys.choice("turbulence.model", names, rules().byDefault("none"),
               fmt::format("Model of Reynolds-averaged turbulence. none: laminar, or all eddies resolved; {}. All but "
                           "k_epsilon and realizable_k_epsilon resolve the layers beside walls: y+ of the first cells "
-                          "(history.csv) about one or less; those have wall functions: y+ from 30 to 300.",
+                          "(history.csv) about one or less; those have wall functions: y+ from 30 to 300 (or "
+                          "turbulence.walls: automatic).",
                           fmt::join(described, "; ")));
   keys.number("turbulence.prandtl", rules().byDefault("0.9").above(0).onlyWith("turbulence.model", models),
               "Turbulent Prandtl number: eddies mix heat by their viscosity over it.");
@@ -93,14 +94,16 @@ void addTurbulenceKeys(DeckSchema& schema) {
               "Turbulent Schmidt number, of species and of the particles of models. In flames 0.7 is usual for both.");
   keys.number("turbulence.eddy_viscosity_ratio", rules().byDefault("10").above(0).onlyWith("turbulence.model", models),
               "Eddy viscosity over that of the molecules at the start, and of gas that outlets draw in.");
-  keys.choice("turbulence.wall_distance", {"walls", "infinite"},
-              rules().byDefault("walls").onlyWith("turbulence.model", models),
-              "Distances from walls, by which sa, sst, sst1994 and wang go. infinite: as if there were no walls, for "
-              "jets and other flows far from them.");
-  keys.choice("turbulence.walls", {"resolved", "automatic"},
-              rules().byDefault("resolved").onlyWith("turbulence.model", ofOmega),
-              "How a model with omega meets walls. resolved: the first cell has y+ of about one or less. automatic: by "
-              "both layers of the law of the wall at once, for cells of any thickness up to y+ 300.");
+  keys.choice(
+      "turbulence.wall_distance", {"walls", "infinite"},
+      rules().byDefault("walls").onlyWith("turbulence.model", models),
+      "Distances from walls, by which sa, sst, sst1994, wang and k-epsilon with automatic walls go. infinite: as if "
+      "there were no walls, for jets and other flows far from them.");
+  keys.choice("turbulence.walls", {"resolved", "automatic"}, rules().optional().onlyWith("turbulence.model", blended),
+              "How a model of two equations meets walls. resolved, of those with omega the default: the first cell has "
+              "y+ of about one or less. automatic: by both layers of the law of the wall at once, for cells of any "
+              "thickness up to y+ 300; the k-epsilon models resolve the layers beside walls by algebraic lengths then, "
+              "and without the key have wall functions.");
   keys.number("turbulence.c_epsilon1",
               rules().byDefault("1.44").above(0).below(1.92).onlyWith("turbulence.model", {"k_epsilon"}),
               "C_1 of k_epsilon, by which what makes k makes epsilon. 1.6 lets round jets spread as they are measured "
@@ -132,7 +135,14 @@ void readTurbulenceModel(const Deck& deck, FlowCase& flowCase) {
   const std::string name = deck.choice("turbulence.model");
   if (name == "none") return;
   TurbulenceChoices choices;
-  choices.blendsLayers = turbulenceModel(name)->wallBeta() > 0.0 && deck.choice("turbulence.walls") == "automatic";
+  if (deck.isGiven("turbulence.walls")) {
+    choices.blendsLayers = deck.choice("turbulence.walls") == "automatic";
+    if (!choices.blendsLayers && turbulenceModel(name)->usesWallLaw())
+      throw deck.error("turbulence.walls",
+                       fmt::format("'{}' has no form of its own for the layers beside walls; expected 'automatic', or "
+                                   "no key for wall functions",
+                                   name));
+  }
   if (deck.isGiven("turbulence.c_epsilon1")) choices.dissipationSource = deck.number("turbulence.c_epsilon1");
   flowCase.turbulence.model = turbulenceModel(name, choices);
 }

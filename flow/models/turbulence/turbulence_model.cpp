@@ -12,6 +12,7 @@
 #include "flow/models/turbulence/realizable_k_epsilon.hpp"
 #include "flow/models/turbulence/shear_stress_transport.hpp"
 #include "flow/models/turbulence/spalart_allmaras.hpp"
+#include "flow/models/turbulence/two_layers.hpp"
 #include "flow/models/turbulence/wang.hpp"
 #include "flow/models/turbulence/wray_agarwal.hpp"
 
@@ -25,6 +26,9 @@ std::shared_ptr<const TurbulenceModel> make(const TurbulenceChoices& choices) {
     kernel.c1 = choices.dissipationSource.value_or(kernel.c1);
   else if (choices.dissipationSource)
     throw InputError(fmt::format("the turbulence model '{}' has no constant C_1", kernel.name()));
+  if constexpr (requires { Kernel::needsWallLaw; })
+    if (choices.blendsLayers)
+      return std::make_shared<PointwiseModel<TwoLayers<Kernel>>>(TwoLayers<Kernel>{kernel}, true);
   return std::make_shared<PointwiseModel<Kernel>>(kernel, choices.blendsLayers);
 }
 
@@ -63,7 +67,7 @@ std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name, co
   if (row == rows.end()) throw InputError(fmt::format("there is no turbulence model '{}'", name));
   auto model = row->make(choices);
   if (choices.blendsLayers && model->wallBeta() <= 0.0)
-    throw InputError(fmt::format("the turbulence model '{}' has no omega for the blended law of the wall", name));
+    throw InputError(fmt::format("the turbulence model '{}' knows no blended law of the wall", name));
   return model;
 }
 

@@ -46,12 +46,12 @@ void TurbulenceOperator::findWallLaw(const State& state) {
     const double share = m.area[face] / layerArea_[c], distance = m.distance[face];
     const double energy = cells_[c].values[0], velocity = strainAtWall(face, state) * distance;
     const double viscosity = cells_[c].viscosity;
-    const walllaw::Layer of = isBlended
-                                  ? walllaw::blendedLayer(energy, velocity, viscosity, distance, model_->wallBeta())
-                                  : walllaw::layer(energy, velocity, viscosity, distance);
-    if (!isBlended)
-      dissipationBeside_[c] +=
-          share * walllaw::layer((1.0 + littleMore) * energy, velocity, viscosity, distance).dissipation;
+    const auto layerOf = [&](double k) {
+      return isBlended ? walllaw::blendedLayer(k, velocity, viscosity, distance, model_->wallBeta())
+                       : walllaw::layer(k, velocity, viscosity, distance);
+    };
+    const walllaw::Layer of = layerOf(energy);
+    dissipationBeside_[c] += share * layerOf((1.0 + littleMore) * energy).dissipation;
     layers_[c].production += share * of.production;
     layers_[c].dissipation += share * of.dissipation;
     layers_[c].frequency += share * of.frequency;
@@ -67,16 +67,19 @@ void TurbulenceOperator::findWallLaw(const State& state) {
 // 3/2, or in the law of two layers between one and 3/2, and more where one passes into the other: by its tangent.
 void TurbulenceOperator::applyWallLaw() {
   constexpr std::size_t energy = 0, second = 1;
-  constexpr double faster = 1e4;
   const bool isBlended = model_->wallLaw() == WallLaw::Blended;
+  // Whether the second variable is the dissipation itself: of other models 3 is no dissipation of k = 1.
+  const bool holdsDissipation = model_->dissipation(std::array{1.0, 3.0}) == 3.0;
+  // In thin cells a rate of 10 000 times what decays would make a residual of round-off.
+  const double faster = isBlended && holdsDissipation ? 1e2 : 1e4;
   for (std::size_t c = 0; c < rates_.size(); ++c) {
     const double k = cells_[c].values[energy];
-    if (!(layerArea_[c] > 0.0) || (!isBlended && !(k > 0.0))) continue;
+    if (!(layerArea_[c] > 0.0) || (holdsDissipation && !(k > 0.0))) continue;
     const double lost = layers_[c].dissipation;
     const double rate = isBlended ? walllaw::cMu * layers_[c].frequency : lost / k;
-    const double held = isBlended ? 1.0 / std::sqrt(layers_[c].frequency) : lost;
+    const double held = holdsDissipation ? lost : 1.0 / std::sqrt(layers_[c].frequency);
     TurbulentRates& rates = rates_[c];
-    const double power = isBlended ? 1.5 : std::max((dissipationBeside_[c] / lost - 1.0) / littleMore, 1.0);
+    const double power = holdsDissipation ? std::max((dissipationBeside_[c] / lost - 1.0) / littleMore, 1.0) : 1.5;
     rates.source[energy] = layers_[c].production + (power - 1.0) * lost;
     rates.sink[energy] = power * rate;
     rates.add(energy, -2.0 / 3.0 * k * cells_[c].dilatation, k);
@@ -84,7 +87,7 @@ void TurbulenceOperator::applyWallLaw() {
     rates.sink[second] = faster * rate;
     slopes_[c] = {};
     for (const std::size_t v : {energy, second}) slopes_[c][v][v] = -rates.sink[v];
-    if (!isBlended) slopes_[c][second][energy] = power * faster * rate * rate;
+    if (holdsDissipation) slopes_[c][second][energy] = power * faster * rate * rate;
   }
 }
 
@@ -181,7 +184,8 @@ std::string TurbulenceOperator::warning() const {
           ? fmt::format("the law of the wall, by which '{}' meets walls, holds up to {:g}", model_->name(), most)
       : model_->usesWallLaw() ? fmt::format(
                                     "the law of the wall, by which '{}' meets walls, holds from {:g} to {:g} and "
-                                    "below {:.1f} makes less turbulence beside the wall, or none",
+                                    "below {:.1f} makes less turbulence beside the wall, or none; "
+                                    "'turbulence.walls: automatic' is for cells of any thickness",
                                     model_->name(), least, most, walllaw::meeting * std::numbers::sqrt2)
                               : fmt::format(
                                     "'{}', which resolves the layer beside walls, needs less than {:g} and better "
