@@ -15,10 +15,12 @@ inline constexpr double ofMolecules = 1.5e-5;  // m^2/s
 // What the models of tests have in common, whose rates say what they were asked with.
 struct TwoVariables {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false;
-  static constexpr double second = 3.0;  // of a free stream; the first is the stream's energy
+  static constexpr double secondValue = 3.0;  // of a free stream; the first is the stream's energy
   [[nodiscard]] std::string name() const { return "two variables"; }
   [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return {{"a", "1", ""}, {"b", "1", ""}}; }
-  [[nodiscard]] std::array<double, 2> freeStream(const FreeStream& stream) const { return {stream.energy, second}; }
+  [[nodiscard]] std::array<double, 2> freeStream(const FreeStream& stream) const {
+    return {stream.energy, secondValue};
+  }
 };
 
 // 7 x 7 cells of 1 mm; the gas slips along all walls, or along those of `sides`.

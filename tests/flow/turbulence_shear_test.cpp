@@ -24,7 +24,7 @@ struct Probe : TwoVariables {
 
 // Of a linear flow, plane and about an axis: u = (A x + C y, B x + E y).
 TEST(Turbulence, LinearFlowsHaveTheirShearAndRatesTheirTangents) {
-  const double A = 30.0, B = 90.0, E = -20.0, a = 2.0, b = TwoVariables::second;
+  const double A = 30.0, B = 90.0, E = -20.0, a = 2.0, b = TwoVariables::secondValue;
   for (const bool isRound : {false, true}) {
     SCOPED_TRACE(isRound);
     const double C = isRound ? 0.0 : -40.0, hoop = isRound ? A : 0.0, dilatation = A + E + hoop;
@@ -161,7 +161,7 @@ TEST(Turbulence, StrainBendsAsItsLogarithmDoes) {
 
 // About an axis with swirl w = r (F + G z + H r), by the tensor written out: no strain of a gas that turns as a whole.
 TEST(Turbulence, SwirlHasItsShear) {
-  const double a = 2.0, b = TwoVariables::second, ofMantle = 2.0;
+  const double a = 2.0, b = TwoVariables::secondValue, ofMantle = 2.0;
   std::vector<Side> sides = TurbulentSquare::walls(Geometry::Axisymmetric);
   sides[1].condition.swirl = ofMantle;
   TurbulentSquare square(std::make_shared<PointwiseModel<Probe>>(), Geometry::Axisymmetric, sides);

@@ -118,8 +118,9 @@ struct Corner {
     return all;
   }
   Gas& gas = Gas::hydrogen();
+  int rows = 2;
   double k = 0.5, u = 3.0, v = 1.0;
-  Box box{Geometry::Planar, {uniformAxis(0.03, 3), uniformAxis(0.02, 2)}, sides(gas)};
+  Box box{Geometry::Planar, {uniformAxis(0.03, 3), uniformAxis(0.02, rows)}, sides(gas)};
   std::shared_ptr<const TurbulenceModel> model;
   State state =
       box.stateWith({takenByWalls({"dust", {{.name = "dust", .unit = "1", .description = ""}}}, box.context.boundaries),
@@ -129,8 +130,8 @@ struct Corner {
                     });
   GasProperties properties;
 
-  explicit Corner(double energy, const char* name = "k_epsilon", bool blendsLayers = false)
-      : k(energy), model(turbulenceModel(name, {.blendsLayers = blendsLayers})) {
+  explicit Corner(double energy, const char* name = "k_epsilon", bool blendsLayers = false, int cellsUp = 2)
+      : rows(cellsUp), k(energy), model(turbulenceModel(name, {.blendsLayers = blendsLayers})) {
     for (int c = 0; c < box.mesh.cells; ++c) {
       state.carried[at(3 * c + 1)] = state.density[at(c)] * k;
       state.carried[at(3 * c + 2)] = state.density[at(c)] * 20.0;
@@ -418,6 +419,29 @@ TEST(WallLaw, AModelOfEpsilonHasBothLayersAtOnce) {
     MPI_Allreduce(MPI_IN_PLACE, &beside, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
     EXPECT_EQ(beside, 4);
   }
+}
+
+// First centres 5 mm from the left wall, of 2 cm, and 2.5 mm from the lower one, of 3 cm; the gas moves at 10^(1/2)
+// m/s.
+TEST(WallLaw, ThinCellsAreCountedBeforeARun) {
+  struct Row {
+    double viscosity, share, mostYPlus;  // m^2/s; y+ is a tenth of the speed times the distance over the viscosity
+  };
+  const double speed = std::sqrt(10.0);
+  for (const Row& of :
+       {Row{1e-3, 1.0, 0.1 * speed * 0.005 / 1e-3}, Row{1e-4, 0.6, 0.1 * speed * 0.0025 / 1e-4}, Row{1e-5, 0.0, 0.0}}) {
+    Corner corner(0.5, "k_epsilon", false, 4);
+    for (int c = 0; c < corner.box.mesh.cells; ++c)
+      corner.properties.viscosity[at(c)] = of.viscosity * corner.state.density[at(c)];
+    const TurbulenceOperator turbulence(corner.box.context, corner.state, corner.model, corner.properties);
+    const TurbulenceOperator::ThinCells thin = turbulence.thinCells(corner.state);
+    EXPECT_NEAR(thin.share, of.share, 1e-12);
+    EXPECT_NEAR(thin.mostYPlus, of.mostYPlus, 1e-9);
+    EXPECT_NEAR(thin.speed, speed, 1e-12);
+  }
+  Corner corner(0.5, "k_omega", true);
+  const TurbulenceOperator other(corner.box.context, corner.state, corner.model, corner.properties);
+  EXPECT_EQ(other.thinCells(corner.state).share, 0.0);
 }
 
 // y+ and friction that are told; walls do not hold k and epsilon.

@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include "app/run/warnings.hpp"
 #include "core/errors.hpp"
 #include "core/wall_distance.hpp"
-#include "flow/boundaries/wall_law.hpp"
 #include "flow/models/combustion/fine_structure_cells.hpp"
 #include "flow/models/constant_pressure_cells.hpp"
 #include "flow/steady/lighting.hpp"
@@ -73,42 +71,16 @@ RadiationOperator::Absorption particleAbsorption(const FlowCase& flowCase) {
   };
 }
 
-// Wall functions on cells that the law of the wall is not for are told before the run rather than in its end: those
-// whose y+ is below the law's meeting of layers even at a friction velocity of a tenth of the largest speed, which is a
-// c_f of 0.02.
-void warnOfThinCells(const FlowDomain& domain, const FlowCase& flowCase) {
-  constexpr double mostFriction = 0.1;
-  if (!flowCase.turbulence.model || flowCase.turbulence.model->wallLaw() != WallLaw::TwoLayers) return;
-  const Mesh& m = domain.mesh;
-  const auto d = static_cast<std::size_t>(m.dimension);
-  double speed = 0.0;  // m/s
-  for (const BoundaryCondition& boundary : flowCase.boundaries)
-    speed = std::max(speed, std::hypot(boundary.speed, boundary.swirl));
-  for (std::size_t c = 0; c < static_cast<std::size_t>(m.owned); ++c) {
-    double square = 0.0;
-    for (std::size_t i = 0; i < d; ++i) square += domain.state.velocity[c * d + i] * domain.state.velocity[c * d + i];
-    speed = std::max(speed, std::sqrt(square));
-  }
-  MPI_Allreduce(MPI_IN_PLACE, &speed, 1, MPI_DOUBLE, MPI_MAX, m.comm);
-  std::array<double, 2> areas{};  // m^2, of all walls and of those with thin cells
-  double most = 0.0;
-  for (int face = m.interiorFaces; face < m.faces; ++face) {
-    if (!domain.context.boundaryOf(face).isNoSlipWall()) continue;
-    const double yPlus = mostFriction * speed * m.distance[face] / flowCase.turbulence.start.viscosity;
-    areas[0] += m.area[face];
-    if (yPlus >= walllaw::meeting) continue;
-    areas[1] += m.area[face];
-    most = std::max(most, yPlus);
-  }
-  MPI_Allreduce(MPI_IN_PLACE, areas.data(), 2, MPI_DOUBLE, MPI_SUM, m.comm);
-  MPI_Allreduce(MPI_IN_PLACE, &most, 1, MPI_DOUBLE, MPI_MAX, m.comm);
-  if (!(speed > 0.0) || !(areas[1] > 0.5 * areas[0])) return;
+// Told before the run rather than in its end.
+void warnOfThinCells(const TurbulenceOperator& turbulence, const State& state, const std::string& model) {
+  const TurbulenceOperator::ThinCells thin = turbulence.thinCells(state);
+  if (!(thin.share > 0.5)) return;
   printWarnings({fmt::format(
       "turbulence.model: '{}' has wall functions, which are for a y+ of the cells beside walls from 30 to 300; on "
       "{:.0f} % "
       "of the walls' area it would be below {:.3g} even at a friction velocity of a tenth of the largest speed, {:.3g} "
       "m/s, and such runs often fail; 'turbulence.walls: automatic' is for cells of any thickness",
-      flowCase.turbulence.model->name(), 100.0 * areas[1] / areas[0], most, speed)});
+      model, 100.0 * thin.share, thin.mostYPlus, thin.speed)});
 }
 
 }  // namespace
@@ -196,7 +168,7 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
   });
   if (turbulence) turbulence->setStart(state, flowCase.turbulence.start, flowCase.initialFields.turbulence);
   flow.initialise(state, flowCase.time.firstStep);
-  warnOfThinCells(*this, flowCase);
+  if (turbulence) warnOfThinCells(*turbulence, state, flowCase.turbulence.model->name());
 }
 
 std::vector<double> FlowDomain::carriedThroughFaces(const CarriedModel& model, double dt) const {

@@ -12,6 +12,7 @@ namespace lampblack::flow {
 
 struct KEpsilon {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false, needsWallLaw = true;
+  static constexpr SecondVariable second = SecondVariable::Dissipation;
   static constexpr double cMu = walllaw::cMu, c2 = 1.92, sigmaK = 1.0, sigmaEpsilon = 1.3;
   // By which 6 nu/(beta y^2) is that omega which has epsilon = C_mu k omega = 2 nu k/y^2 beside a wall.
   static constexpr double wallBeta = 3.0 * cMu;

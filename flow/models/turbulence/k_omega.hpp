@@ -10,6 +10,7 @@ namespace lampblack::flow {
 
 template <int year>
 struct KOmega {
+  static constexpr SecondVariable second = SecondVariable::OmegaRoot;
   static constexpr bool needsWallDistance = false, needsStrainGradient = false, is2006 = year == 2006;
   static constexpr double betaStar = 0.09, sigmaK = is2006 ? 0.6 : 0.5, sigmaOmega = 0.5, sigmaD = is2006 ? 0.125 : 0.0,
                           gamma = is2006 ? 13.0 / 25.0 : 5.0 / 9.0, beta0 = is2006 ? 0.0708 : 0.075,

@@ -12,6 +12,7 @@ namespace lampblack::flow {
 
 struct RealizableKEpsilon {
   static constexpr bool needsWallDistance = false, needsStrainGradient = false, needsWallLaw = true;
+  static constexpr SecondVariable second = SecondVariable::Dissipation;
   static constexpr double a0 = 4.04, c1Least = 0.43, c2 = 1.9, sigmaK = 1.0, sigmaEpsilon = 1.2;
   static constexpr double wallBeta = KEpsilon::wallBeta;
   static constexpr double c1OfBuoyancy = 1.44;  // that of the standard model

@@ -11,6 +11,7 @@ namespace lampblack::flow {
 
 template <int year>
 struct ShearStressTransport {
+  static constexpr SecondVariable second = SecondVariable::OmegaRoot;
   static constexpr bool needsWallDistance = true, needsStrainGradient = false, is2003 = year == 2003;
   static constexpr double betaStar = 0.09, a1 = 0.31, kappa = 0.41, sigmaOmega2 = 0.856, beta1 = 0.075, beta2 = 0.0828,
                           mostProduction = is2003 ? 10.0 : 20.0, leastCross = is2003 ? 1e-10 : 1e-20, wallBeta = beta1;

@@ -56,6 +56,9 @@ struct TurbulentCell {
 // where nu~ falls to zero in a layer thinner than the cell.
 [[nodiscard]] double slopeAlongStrain(const TurbulentCell& cell);
 
+// What a model of two equations carries beside k.
+enum class SecondVariable : char { None, OmegaRoot, Dissipation };
+
 struct TurbulentRates {
   double eddyViscosity = 0.0;                                // m^2/s
   std::array<double, TurbulentCell::most> diffusivity{};     // m^2/s, molecular part included
@@ -105,12 +108,13 @@ class TurbulenceModel {
   [[nodiscard]] virtual bool needsWallDistance() const = 0;
   [[nodiscard]] virtual bool needsStrainGradient() const = 0;
   // The law of the wall that stands for the layers beside walls, where they are not resolved: the first variable is k,
-  // which has no slope there, the second its dissipation, or of the blended law omega^(-1/2), which is that of the law
-  // in the cells beside them.
+  // which has no slope there, the second its dissipation or omega^(-1/2), which is that of the law in the cells beside
+  // them.
   [[nodiscard]] virtual WallLaw wallLaw() const { return WallLaw::None; }
   [[nodiscard]] bool usesWallLaw() const { return wallLaw() != WallLaw::None; }
-  // beta of omega = 6 nu/(beta y^2) beside a wall; 0: the model has no omega, and knows no blended law.
+  // beta of omega = 6 nu/(beta y^2) beside a wall, of epsilon that of C_mu k omega; 0: the model knows no blended law.
   [[nodiscard]] virtual double wallBeta() const { return 0.0; }
+  [[nodiscard]] virtual SecondVariable secondVariable() const { return SecondVariable::None; }
   // Its first variable is k then.
   [[nodiscard]] bool knowsEnergy() const { return variables().size() > 1; }
   // m^2/s^3, by which k decays; nothing of models that do not know k.
@@ -138,6 +142,10 @@ class PointwiseModel : public TurbulenceModel {
     if constexpr (requires { Kernel::wallBeta; }) return Kernel::wallBeta;
     return 0.0;
   }
+  [[nodiscard]] SecondVariable secondVariable() const override {
+    if constexpr (requires { Kernel::second; }) return Kernel::second;
+    return SecondVariable::None;
+  }
   [[nodiscard]] std::array<double, TurbulentCell::most> freeStream(const FreeStream& stream) const override {
     return kernel_.freeStream(stream);
   }
@@ -156,7 +164,7 @@ class PointwiseModel : public TurbulenceModel {
 
 // What a deck may choose of a model.
 struct TurbulenceChoices {
-  bool blendsLayers = false;                  // the blended law of the wall, of models with omega
+  bool blendsLayers = false;                  // the blended law of the wall, of models of two equations
   std::optional<double> dissipationSource{};  // C_1 of k-epsilon, in place of its own
 };
 

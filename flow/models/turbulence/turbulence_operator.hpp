@@ -78,6 +78,15 @@ class TurbulenceOperator : public Operator {
   struct WallState {
     double shear = 0.0, yPlus = 0.0;
   };
+  // Of wall functions, before a run: the walls with cells too thin for the law's logarithmic layer even at a friction
+  // velocity of a tenth of the largest speed, which is a c_f of 0.02.
+  struct ThinCells {
+    double share = 0.0;      // of the walls' area; zero of models without wall functions
+    double mostYPlus = 0.0;  // of those cells, at that friction velocity
+    double speed = 0.0;      // m/s, the largest
+  };
+  // Collective.
+  [[nodiscard]] ThinCells thinCells(const State& state) const;
   // What the user should know of the cells beside walls, of the last row of the history; may be empty.
   [[nodiscard]] std::string warning() const;
   [[nodiscard]] WallState atWall(int face, const State& state) const;

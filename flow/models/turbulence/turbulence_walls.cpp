@@ -68,8 +68,7 @@ void TurbulenceOperator::findWallLaw(const State& state) {
 void TurbulenceOperator::applyWallLaw() {
   constexpr std::size_t energy = 0, second = 1;
   const bool isBlended = model_->wallLaw() == WallLaw::Blended;
-  // Whether the second variable is the dissipation itself: of other models 3 is no dissipation of k = 1.
-  const bool holdsDissipation = model_->dissipation(std::array{1.0, 3.0}) == 3.0;
+  const bool holdsDissipation = model_->secondVariable() == SecondVariable::Dissipation;
   // In thin cells a rate of 10 000 times what decays would make a residual of round-off.
   const double faster = isBlended && holdsDissipation ? 1e2 : 1e4;
   for (std::size_t c = 0; c < rates_.size(); ++c) {
@@ -100,6 +99,36 @@ TurbulenceOperator::WallState TurbulenceOperator::atWall(int face, const State& 
   const double effective = isKnown ? properties_.effectiveBoundaryViscosity()[b] : viscosity;
   const double shear = effective * strainAtWall(face, state);
   return {shear, std::sqrt(shear * state.density[cell]) * m.distance[face] / viscosity};
+}
+
+// The largest speed is that of the state or of what comes in.
+TurbulenceOperator::ThinCells TurbulenceOperator::thinCells(const State& state) const {
+  constexpr double mostFriction = 0.1;
+  const Mesh& m = context_.mesh;
+  const auto d = static_cast<std::size_t>(m.dimension);
+  ThinCells thin;
+  for (const BoundaryCondition& boundary : context_.boundaries)
+    thin.speed = std::max(thin.speed, std::hypot(boundary.speed, boundary.swirl));
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    double square = 0.0;
+    for (std::size_t i = 0; i < d; ++i) square += state.velocity[c * d + i] * state.velocity[c * d + i];
+    thin.speed = std::max(thin.speed, std::sqrt(square));
+  }
+  MPI_Allreduce(MPI_IN_PLACE, &thin.speed, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  std::array<double, 2> areas{};  // of all such walls, and of those with thin cells
+  for (const int face : layerFaces_) {
+    const auto c = static_cast<std::size_t>(m.low[face]);
+    const double viscosity = properties_.viscosity[c] / state.density[c];
+    const double yPlus = mostFriction * thin.speed * m.distance[face] / viscosity;
+    areas[0] += m.area[face];
+    if (yPlus >= walllaw::meeting) continue;
+    areas[1] += m.area[face];
+    thin.mostYPlus = std::max(thin.mostYPlus, yPlus);
+  }
+  MPI_Allreduce(MPI_IN_PLACE, areas.data(), 2, MPI_DOUBLE, MPI_SUM, m.comm);
+  MPI_Allreduce(MPI_IN_PLACE, &thin.mostYPlus, 1, MPI_DOUBLE, MPI_MAX, m.comm);
+  if (model_->wallLaw() == WallLaw::TwoLayers && thin.speed > 0.0 && areas[0] > 0.0) thin.share = areas[1] / areas[0];
+  return thin;
 }
 
 std::vector<Quantity> TurbulenceOperator::historyColumns() const {

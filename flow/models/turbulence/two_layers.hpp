@@ -47,6 +47,7 @@ struct Lengths {
 template <class Outer>
 struct TwoLayers {
   static constexpr bool needsWallDistance = true, needsStrainGradient = false;
+  static constexpr SecondVariable second = Outer::second;
   static constexpr double wallBeta = Outer::wallBeta;
   Outer outer;
 
