@@ -44,6 +44,11 @@ TEST(TwoLayers, GiveTheRatesOfEachByItsShare) {
     EXPECT_NEAR((rates.diffusivity[1] - gasViscosity) * 1.3 / of.eddies, 1.0, 1e-10);
     EXPECT_NEAR(layeredNet(rates, cell, 0) / of.rateOfK, 1.0, 1e-9);
     EXPECT_NEAR(layeredNet(rates, cell, 1) / of.rateOfEpsilon, 1.0, 1e-9);
+    // Eddies gain k by buoyancy in proportion to what there is of them.
+    TurbulentCell buoyant = cell;
+    buoyant.buoyancy = 5e5;
+    const double gained = layeredNet(layeredRates("k_epsilon", buoyant), cell, 0) - layeredNet(rates, cell, 0);
+    EXPECT_NEAR(gained / (5e5 * of.eddies), 1.0, 1e-9);
   }
 }
 
