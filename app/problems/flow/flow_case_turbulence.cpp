@@ -99,11 +99,12 @@ void addTurbulenceKeys(DeckSchema& schema) {
       rules().byDefault("walls").onlyWith("turbulence.model", models),
       "Distances from walls, by which sa, sst, sst1994, wang and k-epsilon with automatic walls go. infinite: as if "
       "there were no walls, for jets and other flows far from them.");
-  keys.choice("turbulence.walls", {"resolved", "automatic"}, rules().optional().onlyWith("turbulence.model", blended),
-              "How a model of two equations meets walls. resolved, of those with omega the default: the first cell has "
-              "y+ of about one or less. automatic: by both layers of the law of the wall at once, for cells of any "
-              "thickness up to y+ 300; the k-epsilon models resolve the layers beside walls by algebraic lengths then, "
-              "and without the key have wall functions.");
+  keys.choice(
+      "turbulence.walls", {"resolved", "automatic"}, rules().optional().onlyWith("turbulence.model", blended),
+      "How a model of two equations meets walls. resolved, of those with omega the default, not for the k-epsilon "
+      "models: the first cell has y+ of about one or less. automatic: by both layers of the law of the wall at "
+      "once, for cells of any thickness up to y+ 300; the k-epsilon models resolve the layers beside walls by "
+      "algebraic lengths then, and without the key have wall functions.");
   keys.number("turbulence.c_epsilon1",
               rules().byDefault("1.44").above(0).below(1.92).onlyWith("turbulence.model", {"k_epsilon"}),
               "C_1 of k_epsilon, by which what makes k makes epsilon. 1.6 lets round jets spread as they are measured "
