@@ -6,9 +6,9 @@ Usage: still_layer.py
 With F_1 = 1, beta nu~ S + gamma nu~ (ln S)' nu~' + ((nu + alpha nu~) nu~')' = 0 between a wall (nu~ = 0) and a held nu~ of 200 nu 5 mm
 away, S = 100/s (s + (y/5 mm)^n), by three ways to take the cross term: by the parabola through a cell's neighbours and the wall; the
 same, by no more than twice what the slopes towards the neighbours above and below say; and as factors (S_face/S_cell)^(gamma/alpha) - 1
-of the differences between neighbours, with which no cell exceeds all its neighbours but by beta nu~ S. Prints the largest nu~/nu of the steady state; "none"
-where nu~ grows without end, with the value it had when no time step was short enough or 1e6 nu were passed; "swings" where iterations stay
-near a state and do not settle to 1e-7.
+of the differences between neighbours, with which no cell exceeds all its neighbours but by beta nu~ S. Prints in these three columns the
+largest nu~/nu of the steady state. Where none is found: "grows" where it has passed 1e6; "stops" where no time step is short enough, with
+the value by then, which if small is no proof that it grows; "swings" where 800 iterations do not settle to 1e-7, with the last value.
 """
 
 import numpy as np
@@ -47,7 +47,7 @@ def rates(n, faces, strain, way):
         return result + ALPHA * (after - before) / h
     ofStrain = slope(np.r_[atFace[0], own, atFace[-1]], gaps)
     product = ofStrain * slope(values, gaps)
-    if way == "neighbours":
+    if way == "limited":
         rising = [between(np.zeros_like(n), side, np.full_like(n, np.inf)) for side in (rises[1:], -rises[:-1])]
         falling = [between(np.full_like(n, -np.inf), side, np.zeros_like(n)) for side in (rises[1:], -rises[:-1])]
         above = np.where(rising[0].real > rising[1].real, *rising)
@@ -98,11 +98,11 @@ def steady(cells, ratio, strain, way, steps=800):
         if not share < 1 or np.any(n + change <= 0):
             dt *= 0.5
             if dt < 1e-13:
-                return f"none ({n.max() / NU:.3g})"
+                return f"stops ({n.max() / NU:.3g})"
             continue
         n = n + change
         if n.max() > 1e6 * NU:
-            return "none (1e6)"
+            return "grows (1e6)"
         if share < 1e-7 and dt > 1:
             return f"{n.max() / NU:.2f}"
         if share < 0.2:
@@ -111,7 +111,7 @@ def steady(cells, ratio, strain, way, steps=800):
 
 
 def main():
-    ways = ("parabola", "neighbours", "factors")
+    ways = ("parabola", "limited", "factors")
     print("n    s      cells  ratio  " + "  ".join(f"{way:>15}" for way in ways))
     for power, atWall in ((0.5, 0.0), (1, 0.0), (1, 1e-2), (1, 1e-4), (2, 0.0), (2, 1e-4)):
         for cells, ratio in ((8, 1), (32, 1), (64, 50), (128, 1e4)):
