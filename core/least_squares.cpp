@@ -8,9 +8,20 @@ namespace {
 
 using Matrix = std::array<Vector3, 3>;
 
+// Below it an eigenvalue of the sum of squares, of which `diagonal` is the diagonal, is the round-off of its terms: at
+// most a few epsilon times the sum of |v_i| |v_j| sqrt(a_ii a_jj) (Cauchy and Schwarz). A thin cell along the axes has
+// none of that across it, however long it is.
+double roundOffAlong(const Vector3& direction, const Vector3& diagonal) {
+  double size = 0.0;
+  for (std::size_t i = 0; i < 3; ++i) size += std::abs(direction[i]) * std::sqrt(diagonal[i]);
+  return 1e-13 * size * size;
+}
+
 // Symmetric; by Jacobi's rotations (Golub and Van Loan 2013, section 8.5). Directions of next to no weight are left
-// out.
+// out: those of round-off, and those in which the values lie less than a thousand-millionth of the longest distance
+// apart, which is what places are off by.
 Matrix pseudoInverse(Matrix a) {
+  const Vector3 diagonal{a[0][0], a[1][1], a[2][2]};
   Matrix vectors{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
   for (int sweep = 0; sweep < 30; ++sweep) {
     for (std::size_t p = 0; p < 2; ++p)
@@ -38,7 +49,8 @@ Matrix pseudoInverse(Matrix a) {
   const double largest = std::max({a[0][0], a[1][1], a[2][2]});
   Matrix inverse{};
   for (std::size_t e = 0; e < 3; ++e) {
-    if (!(a[e][e] > 1e-12 * largest)) continue;
+    const Vector3 direction{vectors[0][e], vectors[1][e], vectors[2][e]};
+    if (!(a[e][e] > std::max(1e-18 * largest, roundOffAlong(direction, diagonal)))) continue;
     for (std::size_t i = 0; i < 3; ++i)
       for (std::size_t j = 0; j < 3; ++j) inverse[i][j] += vectors[i][e] * vectors[j][e] / a[e][e];
   }
