@@ -1,6 +1,7 @@
 #include "flow/properties/gas_properties.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include "flow/boundaries/wall_law.hpp"
 
@@ -44,6 +45,33 @@ void GasProperties::update(const FlowContext& context, const State& state) {
   }
   updateBoundary(context, state);
   if (!state.eddyViscosity.empty()) addEddies(context, state);
+}
+
+void GasProperties::resize(const FlowContext& context, const State& state) {
+  for (auto* ofCells : {&viscosity, &conductivity, &molecularWeight})
+    ofCells->resize(static_cast<std::size_t>(context.mesh.cells));
+  boundaryViscosity.resize(static_cast<std::size_t>(context.mesh.boundaryFaces()));
+  if (state.hasEddies) effectiveBoundaryViscosity_.resize(boundaryViscosity.size());
+}
+
+void GasProperties::saveOrLoad(const FlowContext& context, StateArchive& archive, std::span<double> heat) {
+  constexpr std::size_t width = 3;
+  const Mesh& m = context.mesh;
+  archive.cells("viscosity", viscosity, 1);
+  archive.cells("conductivity", conductivity, 1);
+  std::vector<double>& effective =
+      effectiveBoundaryViscosity_.empty() ? boundaryViscosity : effectiveBoundaryViscosity_;
+  std::vector<double> atBoundaries(static_cast<std::size_t>(m.faces) * width);
+  const auto each = [&](auto move) {
+    for (int face = m.interiorFaces; face < m.faces; ++face) {
+      const auto f = static_cast<std::size_t>(face), b = static_cast<std::size_t>(face - m.interiorFaces);
+      const std::array<double*, width> values{&boundaryViscosity[b], &effective[b], &heat[f]};
+      for (std::size_t i = 0; i < width; ++i) move(atBoundaries[f * width + i], *values[i]);
+    }
+  };
+  each([](double& kept, const double& value) { kept = value; });
+  archive.faces("at_boundaries", atBoundaries, static_cast<int>(width));
+  if (archive.loading()) each([](const double& kept, double& value) { value = kept; });
 }
 
 // Heat goes as enthalpy would through gases of one composition, species along the gradients of their mass fractions.

@@ -10,6 +10,7 @@
 
 #include "chemistry/transport/multicomponent_transport.hpp"
 #include "core/modules.hpp"
+#include "core/state_archive.hpp"
 #include "flow/flow_context.hpp"
 #include "flow/state.hpp"
 
@@ -49,6 +50,12 @@ struct GasProperties {
   // may leave at the size of its error, count as zero here.
   void update(const FlowContext& context, const State& state);
 
+  // Sizes of what saveOrLoad() fills.
+  void resize(const FlowContext& context, const State& state);
+  // What is looked at between two steps; the rest is evaluated where a step begins. `heat`: W, of all faces, what is
+  // conducted out of the gas by these properties; of it what boundaries have.
+  void saveOrLoad(const FlowContext& context, StateArchive& archive, std::span<double> heat);
+
  private:
   struct Coefficients {
     double viscosity = 0.0, conductivity = 0.0;
@@ -60,7 +67,7 @@ struct GasProperties {
   void addWallLaw(const FlowContext& context, const State& state, int face);
   [[nodiscard]] const std::vector<double>& of(const std::vector<double>& effective,
                                               const std::vector<double>& molecular) const {
-    return eddyDiffusivity.empty() ? molecular : effective;
+    return effective.empty() ? molecular : effective;
   }
 
   std::optional<MulticomponentTransport> multicomponent_;

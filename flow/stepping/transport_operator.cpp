@@ -26,9 +26,7 @@ TransportOperator::TransportOperator(const FlowContext& context, const State& st
   const auto faces = static_cast<std::size_t>(context.mesh.faces);
   const auto owned = static_cast<std::size_t>(context.mesh.owned);
   const auto n = static_cast<std::size_t>(state.species);
-  // What is loaded has its size beforehand.
-  for (auto* loaded : {&properties_.viscosity, &properties_.conductivity, &properties_.molecularWeight})
-    loaded->resize(static_cast<std::size_t>(context.mesh.cells));
+  properties_.resize(context, state);
   content_.resize(owned * n);
   heatContent_.resize(owned);
   newMass_.resize(owned);

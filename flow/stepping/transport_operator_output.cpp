@@ -39,9 +39,7 @@ void TransportOperator::recordBoundary(const State& state, double dt) {
 }
 
 void TransportOperator::saveOrLoad(StateArchive& archive) {
-  // What others look at between two steps; the rest of the properties is evaluated where a step begins.
-  archive.cells("viscosity", properties_.viscosity, 1);
-  archive.cells("conductivity", properties_.conductivity, 1);
+  properties_.saveOrLoad(context_, archive, heat_.heat);
   std::vector<double> seen{diagnostics_.continuityError, static_cast<double>(diagnostics_.pressureIterations),
                            static_cast<double>(diagnostics_.speciesIterations), lastStep_};
   archive.sums("boundary_flows", boundaryFlows_);

@@ -11,7 +11,7 @@ using testing::HasSubstr;
 // Warm gas between a cold wall and the middle of a channel, seven steps.
 Deck turbulentDeck(const std::string& turbulence, const std::string& atInlet, double speed,
                    std::vector<std::string> more = {}) {
-  more.emplace_back("checkpoint.steps=3");
+  more.insert(more.begin(), "checkpoint.steps=3");
   return test::flowDeck("perfect_gas_1.yaml",
                         fmt::format(R"(
 turbulence: {{{}}}
@@ -52,6 +52,59 @@ TEST_P(TurbulenceRuns, GoOnAndMoveAndDoNotDependOnRanks) {
   if (one != MPI_COMM_NULL) MPI_Comm_free(&one);
 }
 
+// A model and how it meets walls; empty: none.
+class IdleRestarts : public testing::TestWithParam<std::string> {
+ protected:
+  // `first` ends where a checkpoint of `further` has been; a run that goes on from there has nothing to do.
+  static void expectTheSame(const std::vector<std::string>& first, const std::vector<std::string>& further) {
+    const test::SharedScratchFolder scratch;
+    const bool isLaminar = GetParam().empty();
+    const auto run = [&](const char* name, std::vector<std::string> settings,
+                         const std::optional<std::filesystem::path>& restart = {}) {
+      if (isLaminar) settings.emplace_back("turbulence={model: none}");
+      const std::string start = ", eddy_viscosity_ratio: 20, energy: 0.5 m^2/s^2";
+      test::runFlow(turbulentDeck("model: " + (isLaminar ? "sst" : GetParam()) + start,
+                                  isLaminar ? "" : ", turbulence_intensity: 0.05, turbulence_length: 2 mm",
+                                  isLaminar ? 0.2 : 20.0, settings),
+                    scratch.path() / name, restart);
+      MPI_Barrier(MPI_COMM_WORLD);
+    };
+    run("first", first);
+    const Hdf5Reader expected(scratch.path() / "first/results.h5");
+    const auto steps = static_cast<int>(expected.numbers("/history/step").back());
+    std::vector<std::string> settings = further;
+    settings.push_back(fmt::format("checkpoint.steps={}", steps));
+    run("further", settings);
+    run("idle", first, scratch.path() / fmt::format("further/checkpoint/step_{:06}.h5", steps));
+    expectSameBits(test::readBack(scratch.path() / "idle/results.h5"),
+                   test::readBack(scratch.path() / "first/results.h5"));
+    const Hdf5Reader found(scratch.path() / "idle/results.h5");
+    ASSERT_EQ(expected.numbers("/walls/wall/step").back(), steps);
+    for (const std::string& column : expected.names("/walls/wall"))
+      EXPECT_EQ(found.numbers("/walls/wall/" + column), expected.numbers("/walls/wall/" + column)) << column;
+  }
+};
+
+TEST_P(IdleRestarts, OfASteadyRunHaveItsFieldsAndWalls) {
+  const auto until = [](const char* residual) {
+    return std::vector<std::string>{fmt::format(
+        "time={{mode: steady, first_step: 0.05 ms, maximum_step: 0.2 ms, steady: {{residual: {}}}}}", residual)};
+  };
+  // Iterations go another way where the residual that is wanted is far below; those of sst pass over 1e-4.
+  expectTheSame(until("1e-3"), until(GetParam().starts_with("sst") ? "1e-6" : "1e-4"));
+}
+
+// Steps of 2^-14 s, which add up to the end without round-off; the last has no row in the checkpoint.
+TEST_P(IdleRestarts, OfARunInTimeHaveItsFieldsAndWalls) {
+  const auto until = [](double steps) {
+    constexpr double step = 0.00006103515625;
+    return std::vector<std::string>{
+        fmt::format("time={{end: {} s, first_step: {} s, maximum_step: {} s}}", steps * step, step, step),
+        "output.history_steps=2"};
+  };
+  expectTheSame(until(3.0), until(8.0));
+}
+
 // Nothing but round-off: nu_t is 1e-30 of the viscosity.
 class RunsWithoutEddies : public testing::TestWithParam<std::string> {};
 
@@ -83,6 +136,9 @@ std::string nameOf(const testing::TestParamInfo<std::string>& parameter) {
 
 INSTANTIATE_TEST_SUITE_P(One, TurbulenceRuns,
                          testing::Values("k_epsilon", "sst, walls: automatic", "k_epsilon, walls: automatic"), nameOf);
+INSTANTIATE_TEST_SUITE_P(One, IdleRestarts,
+                         testing::Values("", "sa", "k_epsilon", "sst, walls: automatic", "k_epsilon, walls: automatic"),
+                         [](const auto& of) { return of.param.empty() ? "laminar" : nameOf(of); });
 INSTANTIATE_TEST_SUITE_P(Long, TurbulenceRuns, testing::ValuesIn(eachModel()), nameOf);
 INSTANTIATE_TEST_SUITE_P(Long, RunsWithoutEddies, testing::ValuesIn(eachModel()), nameOf);
 
@@ -142,6 +198,26 @@ TEST(TurbulenceStarts, EndWhereEddiesAreTooViscous) {
                                        "turbulent_kinetic_energy 0.5"),
                              HasSubstr("omega_root 0.0")));
   EXPECT_TRUE(test::sameOnAllRanks(message));
+}
+
+// In steady mode the first iteration leads there and is taken back; where steps do so, the run ends as in time.
+TEST(TurbulenceStarts, EndIterationsAndStepsWhereEddiesAreTooViscous) {
+  const auto messageOf = [](const std::string& turbulence, const std::string& time) {
+    const test::SharedScratchFolder scratch;
+    return test::messageOf<NumericsError>([&] {
+      test::runFlow(turbulentDeck("model: sst, energy: 0.5 m^2/s^2, " + turbulence, sstAtInlet, 20.0, {"time=" + time}),
+                    scratch.path() / "out");
+    });
+  };
+  const std::string taken =
+      messageOf("eddy_viscosity_ratio: 1, largest_eddy_viscosity_ratio: 40",
+                "{mode: steady, first_step: 1 us, maximum_step: 1 us, steady: {steps: 2, returns: 1}}");
+  EXPECT_THAT(taken, AllOf(HasSubstr("in 6 steps in time and 2 iterations (the last of which: in the cell at ("),
+                           HasSubstr(" more than 40 (turbulence.largest_eddy_viscosity_ratio)")));
+  EXPECT_TRUE(test::sameOnAllRanks(taken));
+  const std::string ended = messageOf("eddy_viscosity_ratio: 20, largest_eddy_viscosity_ratio: 19",
+                                      "{mode: steady, first_step: 1 us, maximum_step: 1 us}");
+  EXPECT_THAT(ended, AllOf(testing::StartsWith("in the cell at ("), HasSubstr(" more than 19 (turbulence.largest_")));
 }
 
 }  // namespace

@@ -66,6 +66,8 @@ void FlowLoop::load(const WholeCheckpoint& checkpoint) {
   tables_->load(reader);
   if (hasOtherRanks) costs_.adopt(domain_->mesh.ranks, costs_.weights());
   resumeFromLoadedState();
+  const std::size_t width = columns().size();
+  if (!earlierRows_.empty()) lastRow_ = static_cast<std::int64_t>(earlierRows_.at(earlierRows_.size() - width));
   earlierSteps_ = steps_;
   earlierRetried_ = retried_;
   restart_ = checkpoint;
@@ -144,7 +146,7 @@ void FlowLoop::run(const RunFolder& folder, const RunInfo& info) {
     const std::string problem = writeCheckpoint(outputs);
     if (!problem.empty()) printWarnings({problem});
   }
-  if (last_.step != steps_) observe();  // a restart at the very end
+  writeLastState(outputs);  // of a restart with nothing to do
   findStability();
   followBranch(outputs);
   // What fails after the last step takes nothing from the flow: its results are closed first.

@@ -226,6 +226,8 @@ class FlowLoop {
   // Returns the reason why the checkpoint could not be written, or nothing. The run continues on a full disk.
   std::string writeCheckpoint(Outputs& outputs);
 
+  // The present state in the results and as a row of the history, where they do not have it yet.
+  void writeLastState(Outputs& outputs);
   // Writes a checkpoint and the last state in the results; returns the text that says where.
   std::string saveLastState(Outputs& outputs);
   // What a model of turbulence wants of the cells beside walls and does not have, which may be why a run fails; "; ..."
@@ -274,7 +276,7 @@ class FlowLoop {
   bool startsHot_ = false;  // of a search: isHot() at its start
   double nextOutput_ = 0.0;
   std::int64_t steps_ = 0;
-  std::int64_t written_ = -1;                           // the last step in the results
+  std::int64_t written_ = -1, lastRow_ = -1;            // the last step in the results, and in the history
   std::int64_t retried_ = 0;                            // steps that failed and were tried again
   std::int64_t earlierSteps_ = 0, earlierRetried_ = 0;  // of these, before the restart
   StateBackup backup_;                                  // the start of the step

@@ -83,6 +83,7 @@ HistoryRow FlowLoop::writeRow(HistoryWriter& history) {
   HistoryRow row = observe();
   if (!search_) checkResult();  // on its way a search may pass what is none
   history.row(historyValues(row));
+  lastRow_ = steps_;
   const Timers::Scope scope(timers_, "monitoring");
   tables_->historyRow({steps_, time_}, tableSource());
   return row;
@@ -175,13 +176,24 @@ std::string FlowLoop::writeCheckpoint(Outputs& outputs) {
   return "";
 }
 
+void FlowLoop::writeLastState(Outputs& outputs) {
+  if (search_ && norms_.empty()) {
+    norms_ = residualNow();
+    normsOf_ = steps_;
+  }
+  if (last_.step != steps_) {
+    if (written_ == steps_ || lastRow_ == steps_)
+      observe();
+    else
+      writeRow(outputs.history);
+  }
+  if (written_ != steps_) output(outputs.results);
+}
+
 std::string FlowLoop::saveLastState(Outputs& outputs) {
   std::string checkpoint = writeCheckpoint(outputs);
   if (checkpoint.empty()) checkpoint = fmt::format("--restart goes on from {}", outputs.checkpoints.last().string());
-  if (written_ != steps_) {
-    if (last_.step != steps_) writeRow(outputs.history);
-    output(outputs.results);
-  }
+  writeLastState(outputs);
   outputs.history.writeTo(outputs.results);
   tables_->writeTo(outputs.results);
   outputs.results.closePartial();

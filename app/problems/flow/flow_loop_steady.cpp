@@ -81,6 +81,7 @@ void FlowLoop::searchOn(Outputs& outputs) {
     const ProcessorTime scope(processorTime_[InTime]);
     const std::int64_t retried = retried_;
     stepInTime(outputs);
+    if (domain_->turbulence) domain_->turbulence->checkEddies(domain_->state);
     search_->addStep(totalHeatRelease(), retried_ != retried);
     if (search_->wantsResidual()) {
       const SteadySearch::Residual residual = evaluateForSearch();
@@ -129,6 +130,7 @@ void FlowLoop::iterate(Outputs& outputs) {
       domain_->stepControl.setHeatRelease(heatRelease());
       domain_->budget->begin(domain_->state);
       evaluateForEddies();
+      if (domain_->turbulence) domain_->turbulence->checkEddies(domain_->state);
       steadiness_.adopt(domain_->state, domain_->flow.properties(), time_);
       findNorms(residual);
       const SteadySearch::Residual left = residualOfSearch();
@@ -204,7 +206,12 @@ void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
   }
   if (search_->phase() != SteadySearch::Phase::Iterations) return;
   if (archive.loading()) domain_->state.updateHalo(domain_->halo);
-  if (!iteration_) makeIteration();
+  if (!iteration_) {
+    // What is a function of the state stays as it was loaded: viscosities of the molecules have followed since.
+    const State loaded = domain_->state;
+    makeIteration();
+    domain_->state = loaded;
+  }
   iteration_->saveOrLoad(domain_->state, archive);
   backup_.saveOrLoad(archive, "steady_begin_");
   beforeIterations_->saveOrLoad(archive, "before_iterations_");

@@ -72,6 +72,9 @@ class TurbulenceOperator : public Operator {
   [[nodiscard]] std::vector<Quantity> historyColumns() const override;
   [[nodiscard]] std::vector<double> historyValues(const State& state) override;
   void checkResult() const override;
+  // The same of a state of which no row of the history has been made, with the molecular viscosity of the properties.
+  // NumericsError; collective.
+  void checkEddies(const State& state) const;
   void fields(const State& state, const FieldSink& sink) const override;
 
   // At a wall that the gas sticks to: Pa, friction along it; y+ of the cell's centre.
@@ -104,6 +107,8 @@ class TurbulenceOperator : public Operator {
   void findWallLaw(const State& state);
   void applyWallLaw();
   void storeDiffusivities(State& state) const;
+  [[nodiscard]] Peak largestRatio(const State& state) const;  // of the eddy viscosity over that of the molecules
+  void refuseTooViscous(const Peak& ratio) const;
   [[nodiscard]] std::array<double, 2> range() const;  // of y+, that the model is for
   void findShear(const State& state);
   void addStrainGradient(const State& state);
