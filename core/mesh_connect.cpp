@@ -6,103 +6,16 @@
 #include <array>
 #include <cstddef>
 #include <iterator>
-#include <unordered_map>
 
 #include "core/errors.hpp"
+#include "core/mesh_surface.hpp"
 #include "core/rank_exchange.hpp"
 #include "core/shares.hpp"
 #include "core/sorted_numbers.hpp"
-#include "core/vector3.hpp"
+#include "core/vertex_owner.hpp"
 
 namespace lampblack {
 namespace {
-
-// A vertex as its owner knows it.
-struct Vertex {
-  std::array<double, 3> place{};
-  std::int64_t original = -1;  // the one it is an image of, or itself
-  std::int64_t number = -1;    // without the vertices that no cell uses
-};
-
-// The vertices of a share, asked for by anyone.
-class VertexOwner {
- public:
-  VertexOwner(MPI_Comm comm, const MeshBlock& block)
-      : comm_(comm), block_(block), shares_(comm, block.firstVertex, block.totalVertices) {
-    int ranks = 1;
-    MPI_Comm_size(comm, &ranks);
-    std::vector<std::vector<std::array<std::int64_t, 2>>> toOwner(static_cast<std::size_t>(ranks));
-    for (const auto& [image, original] : block.periodic)
-      toOwner[static_cast<std::size_t>(shares_.rankOf(image))].push_back({image, original});
-    for (const auto& [image, original] : sendToRanks(comm, toOwner).values) originals_[image] = original;
-    followImages();
-    hasImages_ = originals_.empty() ? 0 : 1;
-    MPI_Allreduce(MPI_IN_PLACE, &hasImages_, 1, MPI_INT, MPI_MAX, comm);
-  }
-
-  [[nodiscard]] const Shares& shares() const { return shares_; }
-  // Whether any vertex of the mesh is one.
-  [[nodiscard]] bool hasImages() const { return hasImages_ != 0; }
-
-  // The vertices of these numbers, which are then known to be used. Collective.
-  std::vector<Vertex> vertices(const std::vector<std::int64_t>& wanted) {
-    std::vector<char> isUsed(block_.vertices.size(), 0);
-    std::vector<Vertex> result = ask<Vertex>(comm_, shares_, wanted, [&](std::int64_t number) {
-      const auto own = static_cast<std::size_t>(number - block_.firstVertex);
-      isUsed[own] = 1;
-      return Vertex{block_.vertices[own], originalOf(number), number};
-    });
-    std::int64_t used = std::count(isUsed.begin(), isUsed.end(), 1), before = 0;
-    MPI_Exscan(&used, &before, 1, MPI_INT64_T, MPI_SUM, comm_);
-    MPI_Allreduce(&used, &total_, 1, MPI_INT64_T, MPI_SUM, comm_);
-    if (total_ == block_.totalVertices) return result;
-    std::vector<std::int64_t> newNumber;
-    newNumber.reserve(isUsed.size());
-    for (const char use : isUsed) {
-      newNumber.push_back(before);
-      before += use;
-    }
-    const auto renumbered = ask<std::int64_t>(comm_, shares_, wanted, [&](std::int64_t number) {
-      return newNumber[static_cast<std::size_t>(number - block_.firstVertex)];
-    });
-    for (std::size_t i = 0; i < result.size(); ++i) result[i].number = renumbered[i];
-    return result;
-  }
-  [[nodiscard]] std::int64_t total() const { return total_; }
-
- private:
-  [[nodiscard]] std::int64_t originalOf(std::int64_t number) const {
-    const auto found = originals_.find(number);
-    return found == originals_.end() ? number : found->second;
-  }
-
-  // An image's original may be an image itself, at the corner of two periodic sides.
-  void followImages() {
-    for (int changed = 1; changed != 0;) {
-      std::vector<std::int64_t> images, originals;
-      for (const auto& [image, original] : originals_) {
-        images.push_back(image);
-        originals.push_back(original);
-      }
-      const auto further =
-          ask<std::int64_t>(comm_, shares_, originals, [&](std::int64_t number) { return originalOf(number); });
-      changed = 0;
-      for (std::size_t i = 0; i < images.size(); ++i) {
-        if (further[i] == originals[i]) continue;
-        originals_[images[i]] = further[i];
-        changed = 1;
-      }
-      MPI_Allreduce(MPI_IN_PLACE, &changed, 1, MPI_INT, MPI_MAX, comm_);
-    }
-  }
-
-  MPI_Comm comm_;
-  const MeshBlock& block_;
-  Shares shares_;
-  std::unordered_map<std::int64_t, std::int64_t> originals_;
-  std::int64_t total_ = 0;
-  int hasImages_ = 0;
-};
 
 // A face as one that knows of it tells it to the rank where all that know of it meet.
 struct Meeting {
@@ -169,7 +82,8 @@ class Connector {
   ConnectedCells run() {
     placeCorners();
     meet();
-    checkSurface();
+    refuseTriples();
+    requireBoundaries(comm_, result_.cells, block_.dimension);
     result_.totalFaces = numberFaces();
     result_.totalVertices = owner_.total();
     return std::move(result_);
@@ -190,7 +104,7 @@ class Connector {
       wanted.insert(wanted.end(), others.begin(), others.end());
       wanted = sortedOnce(wanted);
     }
-    const std::vector<Vertex> known = owner_.vertices(wanted);
+    const std::vector<VertexOwner::Vertex> known = owner_.vertices(wanted);
 
     CellSet::Amount all;
     for (const CellShape shape : block_.shapes) all.add(shape);
@@ -206,7 +120,7 @@ class Connector {
       cells.cornerStart[c + 1] = next.corners;
       cells.sideStart[c + 1] = next.sides;
       for (std::size_t corner = first; corner < static_cast<std::size_t>(next.corners); ++corner) {
-        const Vertex& vertex = known[finder.indexOf(corner - first, block_.corners[corner])];
+        const VertexOwner::Vertex& vertex = known[finder.indexOf(corner - first, block_.corners[corner])];
         cells.vertices[corner] = vertex.number;
         cells.places[corner] = vertex.place;
         if (owner_.hasImages()) original_[corner] = vertex.original;
@@ -320,38 +234,11 @@ class Connector {
     return cells.sides[static_cast<std::size_t>(cells.sideStart[c] + side)];
   }
 
-  [[nodiscard]] std::string placeOf(std::size_t cell, const CellSide& side) const {
-    std::array<double, 3> sum{};
-    for (int i = 0; i < side.corners; ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        sum[axis] +=
-            result_.cells.placesOf(cell)[static_cast<std::size_t>(side.corner[static_cast<std::size_t>(i)])][axis] /
-            side.corners;
-    return placeText(sum, block_.dimension);
-  }
-
-  void checkSurface() {
-    const CellSet& cells = result_.cells;
+  void refuseTriples() const {
     collectively(comm_, [&] {
       if (!triples_.empty())
         throw InputError(fmt::format("three cells of the mesh share one face, one of them cell {} (counted from zero)",
                                      block_.firstCell + *std::ranges::min_element(triples_)));
-      std::vector<std::string> places;  // of faces without a boundary
-      for (std::size_t c = 0; c < cellCount(); ++c) {
-        const auto shape = sidesOf(cells.shapes[c]);
-        for (std::size_t s = 0; s < shape.size(); ++s) {
-          const CellSet::Side& side = cells.sidesOf(c)[s];
-          if (side.neighbour < 0 && side.patch < 0) places.push_back(placeOf(c, shape[s]));
-        }
-      }
-      if (places.empty()) return;
-      const auto first = std::ranges::find_if(places, [&](const auto& p) { return std::ranges::count(places, p) > 1; });
-      if (first != places.end())
-        throw InputError(
-            fmt::format("the cells on both sides of the face at {} have corners of their own there, so that it belongs "
-                        "to no boundary; make the corners at one place one (in Gmsh: Coherence)",
-                        *first));
-      throw InputError(fmt::format("the boundary face at {} belongs to no boundary", places.front()));
     });
   }
 
