@@ -116,7 +116,9 @@ std::string oddityOf(const TransportData& data, double atoms) {
   if (data.diameter < 1e-10)
     return fmt::format("a diameter of {:.3g} Angstrom, smaller than any atom's; is it in another unit?",
                        1e10 * data.diameter);
-  const auto shaped = [&](const char* shape) { return fmt::format("the geometry '{}' of {:g} atoms", shape, atoms); };
+  const auto shaped = [&](const char* shape) {
+    return fmt::format("the geometry '{}', but the species has {:g} atom(s)", shape, atoms);
+  };
   if (data.shape == MoleculeShape::Atom && atoms > 1) return shaped("atom");
   if (data.shape == MoleculeShape::Linear && atoms < 2) return shaped("linear");
   if (data.shape == MoleculeShape::Nonlinear && atoms < 3) return shaped("nonlinear");
@@ -133,7 +135,7 @@ void checkTransport(const std::string& file, std::span<const Element> elements, 
     for (std::size_t i = 0; i < elements.size(); ++i) atoms += elements[i].name == "E" ? 0 : s.atoms[i];
     if (atoms == 0) continue;  // electrons
     if (const auto oddity = oddityOf(*s.transport, atoms); !oddity.empty())
-      warnings.push_back(fmt::format("{}:{}: species '{}': the transport data are taken as they are, but have {}",
+      warnings.push_back(fmt::format("{}:{}: species '{}': the transport data are taken as they are, with {}",
                                      s.file.empty() ? file : s.file, s.line, s.name, oddity));
   }
 }

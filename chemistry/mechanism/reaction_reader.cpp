@@ -100,6 +100,13 @@ struct Undeclared {
   std::string name;
 };
 
+// Whether a '+' stands between two other characters.
+bool hasInnerPlus(std::string_view name) {
+  for (std::size_t i = 1; i + 1 < name.size(); ++i)
+    if (name[i] == '+' && name[i - 1] != '+' && name[i + 1] != '+') return true;
+  return false;
+}
+
 class ReactionReader {
  public:
   ReactionReader(const YamlAccess& yaml, const UnitSystem& units, const YAML::Node& node, const ReactionScope& scope,
@@ -124,10 +131,9 @@ class ReactionReader {
     } catch (const Undeclared& species) {
       if (scope_.skipUndeclaredSpecies) return std::nullopt;
       if (scope_.skipUndeclaredThirdBodies && isCollider(parsed, species.name)) return std::nullopt;
-      // "H+O2": names may have '+' in them, so that blanks part the terms of an equation.
-      fail(entry_.node(),
-           fmt::format("species '{}' is not declared in the phase{}", species.name,
-                       species.name.find('+') != std::string::npos ? "; expected blanks around '+'" : ""));
+      // "H+O2": names may have '+' in them, so that blanks part the terms of an equation. "NO+" is an ion.
+      fail(entry_.node(), fmt::format("species '{}' is not declared in the phase{}", species.name,
+                                      hasInnerPlus(species.name) ? "; expected blanks around '+'" : ""));
     }
     readRates(yaml_, units_, entry_, reaction_, warnings_);
     if (reaction_.type == Type::LinearBurke)

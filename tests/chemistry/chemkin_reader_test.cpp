@@ -1,8 +1,7 @@
-// Sections, thermodynamic cards and transport lines of CHEMKIN files, tidy and untidy.
+// Sections and thermodynamic cards of CHEMKIN files, tidy and untidy.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "chemistry/chemkin/chemkin_text.hpp"
 #include "chemistry/mechanism/elements.hpp"
 #include "core/constants.hpp"
 #include "tests/chemistry/chemkin_support.hpp"
@@ -22,40 +21,6 @@ using ::testing::IsEmpty;
 
 const std::array<double, 7> kHigh{2.5, 1e-3, 0, 0, 0, -1000, 4};
 const std::array<double, 7> kLow{1.5, 2e-3, 0, 0, 0, -500, 9.90775528};
-
-TEST(ChemkinText, FortranNumbers) {
-  const std::pair<const char*, double> numbers[] = {{"1", 1},
-                                                    {" -2.5 ", -2.5},
-                                                    {"+3.", 3},
-                                                    {".5", 0.5},
-                                                    {"0.", 0},
-                                                    {"1e3", 1e3},
-                                                    {"1.E+03", 1e3},
-                                                    {"1.d+05", 1e5},
-                                                    {"-1.5D-02", -0.015},
-                                                    {"1.0-300", 1e-300},
-                                                    {"1.25+10", 1.25e10},
-                                                    {"1.2E 05", 1.2e5},
-                                                    {"1e-999", 0},
-                                                    {"0.12345678E+02", 12.345678}};
-  for (const auto& [text, value] : numbers) EXPECT_EQ(fortranNumber(text).value_or(-77), value) << text;
-  for (const char* text : {"", " ", "-", ".", "e5", "1e", "1e+", "1.2E+ 5", "1.2.3", "1 2", "0x10", "inf", "nan",
-                           "1e999", "1e5x", "1,5", "--1", "1e5.0"})
-    EXPECT_FALSE(fortranNumber(text)) << text;
-}
-
-TEST(ChemkinText, LinesKeepTheirNumbers) {
-  const ChemkinSource source(
-      {"a", "\xef\xbb\xbf! First author,\tJ. Chem. 1 (2000)\r\n!  second line !!\r\n\r\n A B ! x\n\n\tC \rD\n\f\n\fE"});
-  EXPECT_EQ(source.heading(), "First author, J. Chem. 1 (2000)\n second line");
-  ASSERT_EQ(source.lines().size(), 4U);
-  EXPECT_EQ(source.lines()[0].text, " A B");
-  EXPECT_EQ(source.lines()[0].number, 4);
-  EXPECT_EQ(source.lines()[1].number, 6);
-  EXPECT_EQ(source.lines()[2].text, "D");
-  EXPECT_EQ(source.lines()[2].number, 7);
-  EXPECT_EQ(source.lines()[3].text, " E") << "the end of a printed page is a blank";
-}
 
 TEST(ChemkinReader, ElementsWithWeightsOfTheirOwn) {
   const auto mechanism = readChemkinText("elements h d /2.014/ E/5.5E-4/\n AR HE\nspecies H AR end", nullptr);
@@ -179,65 +144,6 @@ TEST(ChemkinReader, DataOfTheMechanismGoFirst) {
 }
 
 // `chem.inp tran.dat`: with THERMO in the mechanism the second file may be the transport data.
-TEST(ChemkinReader, TheSecondFileMayBeTransportData) {
-  const std::string mechanism = "ELEM H END SPEC H2 END\nTHERMO\n" + thermoCards("H2", "H   2") + "END\n";
-  for (const std::string heading : {"", "TRANSPORT\n", "! a comment\n"})
-    EXPECT_EQ(
-        readChemkinText(mechanism, nullptr, heading + "H2 1 38. 2.92 0.0 .79 280.\n").species(0).transport->wellDepth,
-        38);
-  EXPECT_THAT(lampblack::test::inputMessage([&] {
-                readChemkinText(mechanism, nullptr, "H2 1 38. 2.92 0.0 .79 280.\n", "H2 1 38. 2.92 0.0 .79 280.\n");
-              }),
-              AllOf(HasSubstr("therm.dat: "), HasSubstr("found transport data")));
-  // Without thermodynamic data anywhere it is these that are missing.
-  EXPECT_THAT(lampblack::test::inputMessage(
-                  [] { readChemkinText("ELEM H END SPEC H2 END", nullptr, "H2 1 38. 2.92 0.0 .79 280.\n"); }),
-              HasSubstr("no thermodynamic data of any species"));
-}
-
-// A mistake in the first line does not make it thermodynamic data of no species.
-TEST(ChemkinReader, ASecondFileWithAMistakeInItsFirstLineIsTransportData) {
-  const std::string mechanism = "ELEM H END SPEC H2 END\nTHERMO\n" + thermoCards("H2", "H   2") + "END\n";
-  const auto message = [&](const std::string& line) {
-    return lampblack::test::inputMessage([&] { readChemkinText(mechanism, nullptr, line); });
-  };
-  EXPECT_THAT(message("H2 3 38. 2.92 0.0 .79 280.\n"),
-              HasSubstr("therm.dat:1: transport data of 'H2': expected a geometry"));
-  EXPECT_THAT(message("H2 1 38. 2.92 0.0 .79\n"),
-              HasSubstr("therm.dat:1: transport data of 'H2': expected six numbers"));
-  // Limits of temperature and cards without a heading are what they were.
-  EXPECT_EQ(readChemkinText("ELEM H END SPEC H2 END", nullptr, thermoCards("H2", "H   2")).species(0).thermo.high,
-            kHigh);
-}
-
-TEST(ChemkinReader, TransportDataThatNoMoleculeHasAreAWarning) {
-  const auto warningsOf = [](const std::string& species, const std::string& data) {
-    std::vector<std::string> warnings;
-    readChemkinText("ELEM H O E END SPEC " + species + " END", &warnings, chemkinThermo(), species + " " + data);
-    return warnings;
-  };
-  for (const auto& [species, data] : {std::pair("H2O", "2 572.4 1.0 1.844 0 4"), std::pair("OH", "1 80. 2.75 0 0 0"),
-                                      std::pair("H", "0 145. 2.05 0 0 0"), std::pair("E", "0 850. 425. 0 0 1")})
-    EXPECT_THAT(warningsOf(species, data), IsEmpty()) << species;
-  EXPECT_THAT(warningsOf("H2O", "2 572.4 2.605E-10 1.844 0 4"),
-              ElementsAre(AllOf(HasSubstr("chem.inp:1: species 'H2O'"), HasSubstr("a diameter of 2.6e-10 Angstrom"))));
-  EXPECT_THAT(warningsOf("H2O", "0 572.4 2.605 1.844 0 4"), ElementsAre(HasSubstr("the geometry 'atom' of 3 atoms")));
-  EXPECT_THAT(warningsOf("H", "1 145. 2.05 0 0 0"), ElementsAre(HasSubstr("the geometry 'linear' of 1 atoms")));
-  EXPECT_THAT(warningsOf("OH", "2 80. 2.75 0 0 0"), ElementsAre(HasSubstr("the geometry 'nonlinear' of 2 atoms")));
-}
-
-TEST(ChemkinReader, TransportIsConverted) {
-  const auto mechanism = readChemkinText("ELEM H O END SPEC H2O END", nullptr, chemkinThermo(),
-                                         "TRANSPORT ALL\nH2O 2 572.400 2.605 1.844 1.5 4.000\nEND");
-  const auto& t = *mechanism.species(0).transport;
-  EXPECT_EQ(t.shape, MoleculeShape::Nonlinear);
-  EXPECT_EQ(t.wellDepth, 572.4);
-  EXPECT_DOUBLE_EQ(t.diameter, 2.605e-10);
-  EXPECT_DOUBLE_EQ(t.dipole, 1.844 * 3.33564095198e-30);
-  EXPECT_DOUBLE_EQ(t.polarizability, 1.5e-30);
-  EXPECT_EQ(t.rotationalRelaxation, 4);
-}
-
 // One species, the given text as its data.
 Mechanism withThermo(const std::string& thermo, std::vector<std::string>* warnings = nullptr,
                      const std::string& name = "CH4") {

@@ -178,6 +178,9 @@ TEST(MechanismErrors, EquationsWithoutBlanksSayWhatIsMissing) {
     EXPECT_THAT(reactionMessage(entry), HasSubstr("'H+O2' is not declared in the phase; expected blanks around '+'"));
   EXPECT_THAT(reactionMessage("equation: H + O3 <=> HO2, rate-constant: [1, 0, 0]"),
               AllOf(HasSubstr("'O3' is not"), Not(HasSubstr("blanks"))));
+  for (const std::string ion : {"NO+", "O++"})
+    EXPECT_THAT(reactionMessage("equation: H + " + ion + " <=> HO2, rate-constant: [1, 0, 0]"),
+                AllOf(HasSubstr("'" + ion + "' is not declared"), Not(HasSubstr("blanks"))));
 }
 
 TEST(MechanismErrors, UnknownKeysNameTheNearest) {
