@@ -41,9 +41,8 @@ std::optional<char> separatorOf(std::string_view text) {
 
 namespace {
 
-// Of a line; units behind a blank are no fields of their own where blanks part these.
-std::size_t numFields(std::string_view line) {
-  const auto separator = separatorOf(line);
+// Of a line; nothing as separator: blanks, and units behind a blank are no fields of their own.
+std::size_t numFields(std::string_view line, std::optional<char> separator) {
   bool quoted = false;
   std::size_t fields = separator ? 1 : 0;
   char before = ' ';
@@ -92,13 +91,37 @@ Bracketed bracketedIn(std::string_view comment) {
 bool hasNamesOf(std::string_view comment, std::string_view row) {
   const Bracketed bracketed = bracketedIn(comment);
   if (bracketed.hasOthers && !bracketed.hasUnits) return false;
-  const std::size_t names = numFields(comment), numbers = numFields(row);
+  // Semicolons or tabulators of the names part the row, too, where it has them: its commas are decimal.
+  const auto ofNames = separatorOf(comment);
+  const bool partsRow = ofNames && *ofNames != ',' && row.find(*ofNames) != std::string_view::npos;
+  const std::size_t names = numFields(comment, ofNames),
+                    numbers = numFields(row, partsRow ? ofNames : separatorOf(row));
   if (names != numbers && bracketed.hasUnits && !bracketed.hasOthers)
     throw InputError(fmt::format(
         "the comment above the first row, '#{}', names units, but has {} fields, the row {}; part the names "
         "as the numbers are and put those with blanks in quotes, or write the comment without brackets",
         comment.substr(0, comment.find_last_not_of(" \t\r\n") + 1), names, numbers));
   return names == numbers;
+}
+
+// The first row has the names. InputError where a row has another number of fields, or a comma that is not clear.
+void addRow(TextTable& table, std::vector<std::string> row, std::size_t line, char separator) {
+  if (table.columns.empty()) {
+    table.columns = std::move(row);
+    return;
+  }
+  if (row.size() != table.columns.size())
+    throw InputError(
+        fmt::format("line {} has {} fields, the line of the names {}", line, row.size(), table.columns.size()));
+  if (separator == '\t') try {
+      refuseThousands(row);
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("line {}: {}", line, error.what()));
+    }
+  if (separator != ',')
+    for (std::string& field : row) field = withDecimalPoint(std::move(field));
+  table.rows.push_back(std::move(row));
+  table.lines.push_back(line);
 }
 
 }  // namespace
@@ -158,14 +181,15 @@ TextTable readCsv(const std::string& given) {
   TextTable table;
   std::vector<std::string> row;
   std::string field;
-  bool quoted = false, comment = false, hadQuotes = false;
+  bool quoted = false, comment = false, hadQuotes = false, rowHadQuotes = false;
   std::size_t line = 1, begins = 1;
   const std::size_t start = text.starts_with("\xef\xbb\xbf") ? 3 : 0;
   const char separator = separatorOf(std::string_view(text).substr(start)).value_or(',');
   const auto endField = [&] {
     while (!hadQuotes && !field.empty() && isBlank(field.back())) field.pop_back();
-    row.push_back(separator == ',' || hadQuotes ? std::move(field) : withDecimalPoint(std::move(field)));
+    row.push_back(std::move(field));
     field.clear();
+    rowHadQuotes = rowHadQuotes || hadQuotes;
     hadQuotes = false;
   };
   const auto endRow = [&] {
@@ -173,15 +197,9 @@ TextTable readCsv(const std::string& given) {
     endField();
     // Spreadsheets write separators behind the last column.
     while (row.size() > std::max<std::size_t>(table.columns.size(), 1) && row.back().empty()) row.pop_back();
-    if (table.columns.empty()) {
-      table.columns = row;
-    } else if (row.size() != table.columns.size()) {
-      throw InputError(
-          fmt::format("line {} has {} fields, the line of the names {}", begins, row.size(), table.columns.size()));
-    } else {
-      table.rows.push_back(row);
-      table.lines.push_back(begins);
-    }
+    const bool isEmpty = !rowHadQuotes && std::ranges::all_of(row, &std::string::empty);  // separators alone
+    if (!isEmpty) addRow(table, row, begins, separator);
+    rowHadQuotes = false;
     row.clear();
   };
   for (std::size_t i = start; i < text.size(); ++i) {

@@ -36,14 +36,15 @@ std::string csvTable(const std::vector<Quantity>& columns, std::span<const doubl
 
 // The text of a table, in which the names may stand in a comment right above the first row, as numpy's savetxt and
 // plotting programs write them ("# time [ms],T [K]"): without its '#'. The row has numbers alone then, as many as the
-// comment has fields; a comment whose square brackets are no units is prose. InputError where they are units and the
-// numbers of fields differ.
+// comment has fields, parted by the comment's semicolons or tabulators where it has them; a comment whose square
+// brackets are no units is prose. InputError where they are units and the numbers of fields differ.
 [[nodiscard]] std::string withNamesOutOfComment(std::string text);
 
 // Lines that begin with # and a byte-order mark are skipped, as are blanks around a field outside of quotes and empty
-// fields behind the last column. separatorOf parts the fields; where it is no comma, decimal commas become points
-// (withDecimalPoint). The names may stand in a comment, as withNamesOutOfComment says.
-// InputError where a row has another number of fields than the first line.
+// fields behind the last column and rows of separators alone. separatorOf parts the fields; where it is no comma,
+// decimal commas become points (withDecimalPoint), in quotes, too. The names may stand in a comment, as
+// withNamesOutOfComment says. InputError where a row has another number of fields than the first line, or tabulators
+// part the fields and a comma may be that of thousands (refuseThousands).
 TextTable readCsv(const std::string& text);
 
 }  // namespace lampblack::io

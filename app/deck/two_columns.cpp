@@ -55,13 +55,6 @@ std::optional<double> numberIn(const std::string& field) {
   return status == std::errc{} ? value : std::numeric_limits<double>::infinity();
 }
 
-// "1,200", which may be 1.2 or 1200; "0,200" and "1,20" may not.
-bool mayHaveThousands(const std::string& field) {
-  const std::size_t comma = field.find(','), begin = field.find_first_not_of("+-");
-  return comma != std::string::npos && field[begin] != '0' && comma > begin && comma - begin <= 3 &&
-         field.size() - comma == 4 && field.find_first_not_of("0123456789", comma + 1) == std::string::npos;
-}
-
 // The two numbers of a line; with decimal commas where semicolons or blanks part them, "0,5;300". InputError where
 // blanks part them and a comma may be of thousands.
 std::optional<std::array<double, 2>> numbersIn(const std::string& line) {
@@ -73,17 +66,12 @@ std::optional<std::array<double, 2>> numbersIn(const std::string& line) {
   };
   if (const auto numbers = two(fieldsOf(line, separatorOf(line).value_or(' ')))) return numbers;
   for (const char separator : {';', ' '}) {
-    std::vector<std::string> fields = fieldsOf(line, separator);
-    const auto unclear = separator == ' ' ? std::ranges::find_if(fields, mayHaveThousands) : fields.end();
-    const std::string field = unclear == fields.end() ? std::string() : *unclear;
-    std::ranges::transform(fields, fields.begin(), withDecimalPoint);
+    const std::vector<std::string> given = fieldsOf(line, separator);
+    std::vector<std::string> fields(given.size());
+    std::ranges::transform(given, fields.begin(), withDecimalPoint);
     const auto numbers = two(fields);
     if (!numbers) continue;
-    if (!field.empty())
-      throw InputError(
-          fmt::format("the comma of '{}' may be that of thousands; write a decimal point, or part the "
-                      "columns by semicolons",
-                      field));
+    if (separator == ' ') refuseThousands(given);
     return numbers;
   }
   return std::nullopt;

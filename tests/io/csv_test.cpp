@@ -52,10 +52,33 @@ TEST(Csv, SemicolonsTabulatorsAndBlanksAroundFields) {
 TEST(Csv, DecimalCommasBecomePoints) {
   for (const std::string text : {"a;b\n1,5;-0,25e-3\n", "a\tb\n1,5\t-0,25e-3\n"})
     EXPECT_EQ(readCsv(text).rows[0], (std::vector<std::string>{"1.5", "-0.25e-3"})) << text;
-  for (const std::string kept : {"1,2,3", "C5H5O(1,3)", "O2: 1, N2: 3", "1,", "x,5", "1,5x", "1.000,5", "1,5e"})
-    EXPECT_EQ(readCsv("a;b\n" + kept + ";2\n").rows[0][0], kept == "1,5e" ? "1.5e" : kept);
-  EXPECT_EQ(readCsv("a;b\n\"1,5\";2\n").rows[0][0], "1,5") << "a text in quotes";
+  for (const std::string kept :
+       {"1,2,3", "C5H5O(1,3)", "O2: 1, N2: 3", "1,", "x,5", "1,5x", "1.000,5", "1,5e", "1,5e+", "1,5e1e1", "+-1,5"})
+    EXPECT_EQ(readCsv("a;b\n" + kept + ";2\n").rows[0][0], kept);
+  for (const std::string text : {"a;b\n\"1,5\";2\n", "a\tb\n\"1,5\"\t2\n"})
+    EXPECT_EQ(readCsv(text).rows[0][0], "1.5") << "in quotes, too";
+  EXPECT_EQ(readCsv("a,b\n\"1,5\",2\n").rows[0][0], "1,5") << "commas part the fields";
   EXPECT_EQ(readCsv("a,b\n1,5\n").rows[0], (std::vector<std::string>{"1", "5"}));
+}
+
+// Between semicolons commas are decimal; between tabulators they may be those of thousands.
+TEST(Csv, ACommaThatMayBeOfThousandsIsRefusedBetweenTabulators) {
+  for (const std::string field : {"1,200", "-12,000", "\"999,999\""})
+    EXPECT_THAT(test::messageOf<InputError>([&] { static_cast<void>(readCsv("a\tb\n0,1\t2\n3\t" + field + "\n")); }),
+                testing::AllOf(testing::HasSubstr("line 3: the comma of '"), testing::HasSubstr("of thousands")))
+        << field;
+  for (const std::string field : {"0,200", "1,20", "1,2000", "1234,500", "1,200e3", ",200"})
+    EXPECT_EQ(readCsv("a\tb\n1\t" + field + "\n").rows[0][1].find(','), std::string::npos) << field;
+  EXPECT_EQ(readCsv("a;b\n1;1,200\n").rows[0][1], "1.200");
+  EXPECT_EQ(readCsv("a\t\"1,200\"\n1\t2\n").columns[1], "1,200") << "a name";
+}
+
+TEST(Csv, RowsOfSeparatorsAloneAreNone) {
+  for (const std::string text : {"a;b\n;\n1;2\n;;;\n", "a,b\n,\n1,2\n , \n", "a\tb\n1\t2\n\t\n", ";;\na;b\n1;2\n"}) {
+    EXPECT_EQ(readCsv(text).columns, (std::vector<std::string>{"a", "b"})) << text;
+    EXPECT_EQ(readCsv(text).rows, (std::vector<std::vector<std::string>>{{"1", "2"}})) << text;
+  }
+  EXPECT_EQ(readCsv("a,b\n\"\",\"\"\n").rows.size(), 1U) << "texts without letters";
 }
 
 TEST(Csv, EmptyFieldsBehindTheLastColumnAreNone) {
@@ -88,6 +111,15 @@ TEST(Csv, NamesMayStandInACommentAboveTheFirstRow) {
   EXPECT_THAT(refusal("# height above burner [cm]  T [degC]\n0 900\n"),
               testing::HasSubstr("'# height above burner [cm]  T [degC]', names units, but has 4 fields, the row 2"));
   EXPECT_THAT(refusal("# t [s], T [K], p [bar]\r\n0,900\r\n"), testing::HasSubstr("has 3 fields, the row 2"));
+}
+
+// What parts the names parts the numbers, whose commas are decimal.
+TEST(Csv, NamesInACommentMayStandAboveDecimalCommas) {
+  for (const std::string text : {"# x [mm];velocity_x [m/s]\n0,0;1,2\n", "# x [mm]\tvelocity_x [m/s]\n0,0\t1,2\n",
+                                 "# x;velocity_x\n0,0;1,2\n"}) {
+    EXPECT_EQ(readCsv(text).columns[1].substr(0, 10), "velocity_x") << text;
+    EXPECT_EQ(readCsv(text).rows, (std::vector<std::vector<std::string>>{{"0.0", "1.2"}})) << text;
+  }
 }
 
 TEST(Csv, TheHeaderOfAHistoryHasAsManyFieldsAsItsRows) {
