@@ -81,7 +81,6 @@ void FlowLoop::searchOn(Outputs& outputs) {
     const ProcessorTime scope(processorTime_[InTime]);
     const std::int64_t retried = retried_;
     stepInTime(outputs);
-    if (domain_->turbulence) domain_->turbulence->checkEddies(domain_->state);
     search_->addStep(totalHeatRelease(), retried_ != retried);
     if (search_->wantsResidual()) {
       const SteadySearch::Residual residual = evaluateForSearch();
