@@ -22,6 +22,7 @@ using test_mesh::channelSides;
 using test_mesh::gas;
 using test_mesh::Surface;
 using test_mesh::volumeOf;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -148,7 +149,18 @@ TEST(FlowMeshFile, ANameWithPointsOrBracketsGoesByUnderscores) {
   FlowCase flowCase = deck.read(withoutFloor + "  wall_1__low: {type: wall}\n");
   const Mesh mesh = makeMesh(MPI_COMM_WORLD, flowCase);
   EXPECT_THAT(mesh.patches, ElementsAre("in", "out", "top", "wall_1__low"));
-  EXPECT_THAT(deck.error(withoutFloor + "  wall_1_low: {type: wall}\n"), HasSubstr("no such part of the mesh"));
+  EXPECT_THAT(deck.error(withoutFloor + "  wall_1_low: {type: wall}\n"),
+              AllOf(HasSubstr("no such part of the mesh"), HasSubstr("names: wall_1__low, out, top, in"),
+                    HasSubstr("did you mean 'wall_1__low'")));
+  EXPECT_THAT(deck.error(withoutFloor), HasSubstr("'wall_1__low' has no boundary"));
+  for (const std::string other : {"\"wall.1].low\"", "\"wall_1__low\""}) {
+    std::string twice = file;
+    twice.replace(twice.find("\"top\""), 5, other);
+    deck.write(twice);
+    EXPECT_THAT(deck.error(withoutFloor + "  wall_1__low: {type: wall}\n"),
+                AllOf(HasSubstr("boundaries.wall_1__low"), HasSubstr("have this one name in a deck"),
+                      HasSubstr("'wall[1].low'")));
+  }
 }
 
 TEST(FlowMeshFile, AFileWithoutNamesSaysWhatNeedsThem) {

@@ -9,10 +9,10 @@
 #include <utility>
 
 #include "app/problems/flow/flow_limits.hpp"
+#include "app/problems/flow/mesh_patches.hpp"
 #include "app/run/content_hash.hpp"
 #include "core/errors.hpp"
 #include "core/mesh_parts.hpp"
-#include "core/nearest_name.hpp"
 #include "io/gmsh_reader.hpp"
 
 namespace lampblack::app {
@@ -58,73 +58,6 @@ void requireGeometry(const FlowCase& flowCase, int dimension) {
                                                    : "lies in a plane; expected planar or axisymmetric"));
 }
 
-// What a deck calls a patch: a deck's names have neither points nor brackets.
-std::string nameInDeck(std::string patch) {
-  std::ranges::replace_if(
-      patch, [](char c) { return c == '.' || c == '[' || c == ']'; }, '_');
-  return patch;
-}
-
-// The patch that a name of the deck stands for; a group without a name goes by its number, too. patches.size(): none.
-std::size_t patchOf(const std::vector<std::string>& patches, const std::string& name) {
-  auto found = std::ranges::find(patches, name);
-  if (found == patches.end()) found = std::ranges::find(patches, "physical " + name);
-  if (found == patches.end()) found = std::ranges::find(patches, name, nameInDeck);
-  return static_cast<std::size_t>(found - patches.begin());
-}
-
-std::string namesText(const std::vector<std::string>& patches, const FlowCase& flowCase) {
-  const std::string file = flowCase.meshFile->path.string();
-  if (patches.empty())
-    return fmt::format("{} has no names: give the {} of its surface physical groups", file,
-                       flowCase.dimension == 3 ? "faces" : "lines");
-  return fmt::format("{} has these names: {}", file, fmt::join(patches, ", "));
-}
-
-// The number of each of the file's patches among the boundaries; -1: periodic. Those that the deck does not name are
-// behind the boundaries, for only the mesh knows whether they are part of the surface.
-std::vector<int> numbersOf(const std::vector<std::string>& patches, const FlowCase& flowCase) {
-  const MeshFile& file = *flowCase.meshFile;
-  std::vector<std::string> known = file.periodic;
-  for (const BoundaryCondition& boundary : flowCase.boundaries) known.push_back(boundary.name);
-  constexpr int unknown = -2;
-  std::vector<int> numbers(patches.size(), unknown);
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    const std::size_t patch = patchOf(patches, known[k]);
-    if (patch == patches.size())
-      throw file.deck.error("boundaries." + known[k],
-                            fmt::format("there is no such part of the mesh; {}{}", namesText(patches, flowCase),
-                                        didYouMean(known[k], patches)));
-    if (numbers[patch] != unknown)
-      throw file.deck.error(
-          "boundaries." + known[k],
-          fmt::format("this is the group '{}', which has another boundary; leave one of them out", patches[patch]));
-    numbers[patch] = k < file.periodic.size() ? -1 : static_cast<int>(k - file.periodic.size());
-  }
-  auto behind = static_cast<int>(flowCase.boundaries.size());
-  for (int& patch : numbers)
-    if (patch == unknown) patch = behind++;
-  return numbers;
-}
-
-// Returns the names that the deck does not have: patches behind the boundaries.
-std::vector<std::string> orderPatches(MeshBlock& block, const FlowCase& flowCase) {
-  const std::vector<int> boundaryOf = numbersOf(block.patches, flowCase);
-  for (MeshBlock::NamedFace& face : block.named) face.patch = boundaryOf[static_cast<std::size_t>(face.patch)];
-  std::erase_if(block.named, [](const MeshBlock::NamedFace& face) { return face.patch < 0; });
-  std::vector<std::string> others;
-  for (std::size_t patch = 0; patch < block.patches.size(); ++patch)
-    if (boundaryOf[patch] >= static_cast<int>(flowCase.boundaries.size())) others.push_back(block.patches[patch]);
-  block.patches.clear();
-  for (const BoundaryCondition& boundary : flowCase.boundaries) {
-    block.patches.push_back(boundary.name);
-    block.isThinWall.push_back(boundary.kind == BoundaryKind::Wall ? 1 : 0);
-  }
-  block.patches.insert(block.patches.end(), others.begin(), others.end());
-  block.isThinWall.resize(block.patches.size(), 0);
-  return others;
-}
-
 // Collective. Faces of each patch: those that are named, and those of the surface.
 struct PatchFaces {
   std::vector<std::int64_t> named, surface;
@@ -153,8 +86,8 @@ void dropOtherPatches(Mesh& mesh, const std::vector<std::string>& others, const 
   collectively(mesh.comm, [&] {
     for (std::size_t i = 0; i < others.size(); ++i)
       if (faces.surface[boundaries + i] > 0)
-        throw file.deck.error("boundaries",
-                              fmt::format("'{}' has no boundary; {}", others[i], namesText(names, flowCase)));
+        throw file.deck.error(
+            "boundaries", fmt::format("'{}' has no boundary; {}", nameInDeck(others[i]), namesText(names, flowCase)));
   });
   for (const std::string& name : others)
     notes.push_back(
