@@ -99,6 +99,8 @@ TEST(PahCase, WhatIsNoGasIsRefused) {
   for (const std::string slip : {"N3: 0.9", "H20: 0.1", "C2H: 0.1"})
     EXPECT_THAT(refused(pyreneMolecule, fractions(slip)),
                 HasSubstr("H, H2, OH, H2O, O2, C2H2 only; of others N2, Ar, He, Ne, Kr, CO, CO2, CH4 may be named"));
+  for (const std::string twice : {"C2H2: 0.1, c2h2: 0.1", "H: 0.1, AR: 0.1, Ar: 0.1"})
+    EXPECT_THAT(refused(pyreneMolecule, fractions(twice)), HasSubstr("given twice, as '"));
   EXPECT_THAT(refused(pyreneMolecule, fractions("H: 0.6, H2: 0.6")), HasSubstr("add up to 1.2"));
   EXPECT_THAT(refused(pyreneMolecule, fractions("H: 0.6, AR: 0.6")), HasSubstr("add up to 1.2"));
   EXPECT_THAT(refused(pyreneMolecule, "{file: gas.csv, temperature: 1500 K}", "mechanism: a.yaml"),

@@ -68,14 +68,19 @@ ParticlePath constantGas(const Deck& deck) {
   sample.concentrations.assign(names.size(), 0);
   const double total = sample.gas.pressure / (constants::gasConstant * sample.gas.temperature);
   double sum = 0;
-  for (const std::string& name : deck.children("gas.mole_fractions")) {
+  const std::vector<std::string> given = deck.children("gas.mole_fractions");
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const std::string& name = given[i];
     const std::string key = "gas.mole_fractions." + name;
+    const auto before = std::ranges::find_if(given.begin(), given.begin() + static_cast<std::ptrdiff_t>(i),
+                                             [&](const std::string& other) { return sameInAnyCase(other, name); });
+    if (*before != name) throw deck.error(key, fmt::format("this species is given twice, as '{}', too", *before));
     const double share = deck.number(key);
     sum += share;
     const auto found =
         std::ranges::find_if(names, [&](const std::string& known) { return sameInAnyCase(known, name); });
     if (found != names.end())
-      sample.concentrations[static_cast<std::size_t>(found - names.begin())] += total * share;
+      sample.concentrations[static_cast<std::size_t>(found - names.begin())] = total * share;
     else if (std::ranges::none_of(gasesWithoutPart, [&](std::string_view gas) { return sameInAnyCase(gas, name); }))
       throw deck.error(key, fmt::format("molecules react with {} only; of others {} may be named; leave this out",
                                         fmt::join(names, ", "), fmt::join(gasesWithoutPart, ", ")));
