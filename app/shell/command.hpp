@@ -9,9 +9,9 @@ namespace lampblack::app {
 
 struct Command {
   enum class On { AllRanks, FirstRank };
-  std::function<void()> work;  // on all ranks collective where a launcher started several; on the first without MPI
-  bool needsMpi = false;       // without a launcher, too
-  On on = On::AllRanks;
+  std::function<void()> work;
+  bool needsMpi = false;  // without a launcher, too
+  On on = On::AllRanks;  // AllRanks: `work` is collective. FirstRank: on rank 0 alone, after this process has ended MPI
 };
 
 }  // namespace lampblack::app

@@ -163,7 +163,7 @@ def check_first_rank(executable, mpiexec):
     env = dict(HASTE, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
     for arguments, code, words in ((["where", "cases"], 0, "cases\n"), (["plot", "--help"], 0, "usage: lampblack plot"),
                                    (["cases", "copy", "nothing"], 2, "there is no case 'nothing'"),
-                                   (["check", ANALYSIS], 2, "an analysis starts its runs itself")):
+                                   (["check", ANALYSIS], 2, "an analysis is checked by one process alone")):
         done = run(*mpiexec, "2", "--oversubscribe", executable, *arguments, **env)
         assert done.returncode == code and (done.stdout + done.stderr).count(words) == 1, (arguments, done)
         assert "MPI_ABORT" not in done.stderr, (arguments, done)

@@ -1,6 +1,7 @@
 #include "app/shell/study/analysis_command.hpp"
 
 #include <fmt/format.h>
+#include <mpi.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -122,16 +123,24 @@ void addAnalysisCommands(CLI::App& app, Command& command) {
 }
 
 bool isAnalysis(const std::string& file) {
+  int is = 0;
   try {
-    const DeckNode root = parseDeck({file, readTextFile(file, "an analysis")});
-    return root.child("analysis") != nullptr && root.child("problem") == nullptr;
+    if (placeOfProcess().rank == 0) {
+      const DeckNode root = parseDeck({file, readTextFile(file, "an analysis")});
+      is = root.child("analysis") != nullptr && root.child("problem") == nullptr ? 1 : 0;
+    }
   } catch (const InputError&) {
-    return false;
+    is = 0;
   }
+  // Ranks that took a deck for different things would wait for each other.
+  if (ParallelSession::runs()) MPI_Bcast(&is, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return is != 0;
 }
 
 void checkAnalysis(const std::string& file, const std::vector<std::string>& overrides) {
-  refuseLauncher("check");
+  // The decks are checked by processes of this program, which would take themselves for ranks of the launcher's run.
+  if (startedByLauncher())
+    throw InputError("check: an analysis is checked by one process alone; leave out mpirun or srun");
   const AnalysisArguments arguments{file, {}, overrides};
   handOver("check", arguments, Deck::load(file, overrides, analysisSchema()), {});
 }

@@ -18,7 +18,7 @@ namespace lampblack::app {
 void addAnalysisCommands(CLI::App& app, Command& command);
 
 // Whether a file is an analysis rather than a deck: it has `analysis` and no `problem`. False where it cannot be read,
-// which is told by who reads it next.
+// which is told by who reads it next. Collective where MPI has started: the first rank reads.
 bool isAnalysis(const std::string& file);
 
 // Reads an analysis and all that it names, and runs nothing. InputError.
