@@ -44,10 +44,11 @@ void checkSides(const Deck& deck, FlowCase& flowCase);
 // The section initial, when boundaries, particles and the model of turbulence have been read.
 void readInitial(const Deck& deck, FlowCase& flowCase);
 
-// The section particles, when the chemistry has been read; what of it is there at the start, behind readInitial(); and
-// the section trajectories, behind both.
+// The section particles, when the chemistry has been read.
 void readSoot(const Deck& deck, FlowCase& flowCase);
+// What of the particles is there at the start, behind readInitial().
 void readCarriedStart(const Deck& deck, FlowCase& flowCase);
+// The section trajectories, behind readSoot() and readCarriedStart().
 void readTrajectories(const Deck& deck, FlowCase& flowCase);
 
 // What a name is in those of files and of groups of the results: other characters than letters, digits, _, - and +
