@@ -208,8 +208,6 @@ class FlowLoop {
   // How far from steady the run ended, for the closing report.
   [[nodiscard]] std::vector<std::string> steadyLines() const;
   void addSearch(JsonWriter& json) const;
-  // Of the last iteration: cells in which limits held back what is carried.
-  [[nodiscard]] std::int64_t heldCells() const;
   // Collective. By equation; nothing where an operator is stochastic, whose rates are those of single events, nor, with
   // a warning, where the gas has no properties or rates.
   [[nodiscard]] std::vector<ResidualNorm> residualNow();
@@ -258,13 +256,17 @@ class FlowLoop {
   };
   std::optional<Stability> stability_;
   std::optional<FlowBranch> branch_;
-  std::unique_ptr<FlowResidual> residual_;      // of the states that steps lead to; made where it is asked for
-  std::unique_ptr<SteadyIteration> iteration_;  // while the search iterates
-  std::optional<Steadiness> beforeIterations_;  // steadiness_ then
-  std::vector<ResidualNorm> norms_;             // of the last state that was evaluated
-  std::int64_t normsOf_ = -1;                   // its number of steps
-  enum Way { InTime, Iterating };
-  std::array<double, 2> processorTime_{};  // s, by Way, of all ranks
+  std::unique_ptr<FlowResidual> residual_;         // of the states that steps lead to; made where it is asked for
+  std::unique_ptr<SteadyIteration> iteration_;     // while the search iterates
+  std::optional<Steadiness> beforeIterations_;     // steadiness_ then
+  std::vector<ResidualNorm> norms_;                // of the last state that was evaluated
+  std::int64_t normsOf_ = -1;                      // its number of steps
+  std::int64_t heldCells_ = 0, heldCellsOf_ = -1;  // of the last iteration, and its number of steps
+  enum class ProcessorTimeOf { Steps, Iterations };
+  // s, since the start or the restart; of this rank until tellSearch() or report() adds those of the others.
+  std::array<double, 2> processorTime_{};
+  [[nodiscard]] double& processorTime(ProcessorTimeOf of) { return processorTime_[static_cast<std::size_t>(of)]; }
+  [[nodiscard]] double processorTime(ProcessorTimeOf of) const { return processorTime_[static_cast<std::size_t>(of)]; }
   CellCosts costs_;
   bool repartitions_;  // whether the mesh may still be partitioned anew
   std::unique_ptr<FlowTables> tables_;

@@ -41,6 +41,7 @@ void FlowLoop::lightIfDark(Outputs& outputs) {
   beginNextStep();
   dt_ = case_.time.firstStep;
   normsOf_ = -1;
+  heldCells_ = 0;
   search_->addLighting();
   outputs.progress.finish();
   printWarnings(

@@ -45,7 +45,7 @@ std::vector<double> FlowLoop::searchValues() const {
   values.push_back(last.newtonIterations);
   values.push_back(last.newtonTakenBack ? 1.0 : 0.0);
   if (std::ranges::any_of(domain_->state.scalars, &CarriedScalar::isTransported))
-    values.push_back(static_cast<double>(last.held));
+    values.push_back(heldCellsOf_ == steps_ ? static_cast<double>(heldCells_) : 0.0);
   if (normsOf_ == steps_)
     for (const ResidualNorm& norm : worstOfEachKind(norms_)) values.push_back(norm.value);
   values.resize(searchColumns().size(), std::numeric_limits<double>::quiet_NaN());
@@ -90,19 +90,15 @@ std::vector<std::string> FlowLoop::searchLines() const {
       "largest residual {}{:.2e} now",
       isSteady() ? "steady" : "not steady", search_->options().residual, search_->steps(), time_, early,
       search_->iterations(), takenBack, back, lit, first, largestNorm()));
-  if (const std::int64_t held = heldCells(); held > 0)
+  if (heldCells_ > 0)
     lines.push_back(fmt::format(
         "in {} cells limits held back what the last iteration would have made of what is carried (held_cells in "
         "history.csv): there it has not settled, however small its residual",
-        held));
+        heldCells_));
   lines.push_back(fmt::format("processor time of the steps in time {:.3g} s, of the iterations {:.3g} s",
-                              processorTime_[InTime], processorTime_[Iterating]));
+                              processorTime(ProcessorTimeOf::Steps), processorTime(ProcessorTimeOf::Iterations)));
   for (const std::string& line : roundLines()) lines.push_back(line);
   return lines;
-}
-
-std::int64_t FlowLoop::heldCells() const {
-  return iteration_ ? iteration_->last().held : 0;
 }
 
 void FlowLoop::tellSearch() {
@@ -113,8 +109,12 @@ void FlowLoop::tellSearch() {
 }
 
 TimeControl::Search::Coarser FlowLoop::searchAsCoarser() const {
-  return {cells(),          search_->isSteady(),   burnsOrCannot(),
-          search_->steps(), search_->iterations(), processorTime_[InTime] + processorTime_[Iterating]};
+  return {cells(),
+          search_->isSteady(),
+          burnsOrCannot(),
+          search_->steps(),
+          search_->iterations(),
+          processorTime(ProcessorTimeOf::Steps) + processorTime(ProcessorTimeOf::Iterations)};
 }
 
 void FlowLoop::addSearch(JsonWriter& json) const {
@@ -126,10 +126,10 @@ void FlowLoop::addSearch(JsonWriter& json) const {
   json.field("found_early", search_->isAttempt() && isSteady());
   json.field("returns_to_steps", static_cast<std::int64_t>(search_->returns()));
   json.field("times_lit", static_cast<std::int64_t>(search_->lightings()));
-  json.field("held_cells", heldCells());
+  json.field("held_cells", heldCells_);
   json.field("residual_before_iterations", search_->firstResidual()).field("last_residual", largestNorm());
-  json.field("processor_time_of_steps_s", processorTime_[InTime]);
-  json.field("processor_time_of_iterations_s", processorTime_[Iterating]);
+  json.field("processor_time_of_steps_s", processorTime(ProcessorTimeOf::Steps));
+  json.field("processor_time_of_iterations_s", processorTime(ProcessorTimeOf::Iterations));
   if (rounds_) addRounds(json);
   json.key("coarser_meshes").beginArray();
   for (const TimeControl::Search::Coarser& coarser : case_.time.search->coarser) {

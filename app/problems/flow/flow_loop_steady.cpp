@@ -78,7 +78,7 @@ void FlowLoop::searchOn(Outputs& outputs) {
     iterate(outputs);
     if (search_->isSteady()) lightIfDark(outputs);
   } else {
-    const ProcessorTime scope(processorTime_[InTime]);
+    const ProcessorTime scope(processorTime(ProcessorTimeOf::Steps));
     const std::int64_t retried = retried_;
     stepInTime(outputs);
     search_->addStep(totalHeatRelease(), retried_ != retried);
@@ -111,7 +111,7 @@ void FlowLoop::evaluateForEddies() {
 }
 
 void FlowLoop::iterate(Outputs& outputs) {
-  const ProcessorTime scope(processorTime_[Iterating]);
+  const ProcessorTime scope(processorTime(ProcessorTimeOf::Iterations));
   if (!iteration_) makeIteration();
   const int attemptsBefore = search_->attempts();
   try {
@@ -122,6 +122,8 @@ void FlowLoop::iterate(Outputs& outputs) {
                                     {.combined = search_->mayAccelerate(), .newtons = search_->mayBeNewtons()});
     }
     ++steps_;
+    heldCells_ = outcome.held;
+    heldCellsOf_ = steps_;
     if (outcome.taken) {
       checkStateAndRequests(outputs.checkpoints);
       const FlowResidual& residual = iteration_->residual();
@@ -157,6 +159,7 @@ void FlowLoop::goBack(Outputs& outputs, int attemptsBefore) {
     dt_ *= firstStepBack;
   }
   normsOf_ = -1;
+  heldCells_ = 0;
   outputs.progress.finish();
   if (!search_->isGivenUp() && !wasAttempt)
     printWarnings({fmt::format("step {}: iterations end and steps in time go on{}: {}", steps_,
@@ -198,6 +201,8 @@ void FlowLoop::saveOrLoadSearch(StateArchive& archive) {
     if (archive.loading()) search_.emplace(*case_.time.search);
   }
   search_->saveOrLoad(archive);
+  archive.shared("steady_held_cells", heldCells_);
+  archive.shared("steady_held_cells_of", heldCellsOf_);
   if (rounds_) {
     rounds_->saveOrLoad(archive);
     gases_.saveOrLoad(archive, "gases_");
