@@ -30,6 +30,14 @@ output: {boundaries: [wall]}
                         overrides);
 }
 
+// Its start would be slow enough for cells that are too thin, but it is driven to other speeds.
+TEST(SteadyMode, ADrivenStartTellsNothingOfCellsBesideWalls) {
+  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(halfChannel({"initial.formula.velocity_x=0.1"})));
+  testing::internal::CaptureStderr();
+  loop.warnOfStart();
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 // By wall functions: the mean velocity over the friction velocity is that of a program of its own for the same
 // equations in one dimension (docs/verification.md); the first cell's by the logarithmic law, whose mean is below its
 // value at the centre.

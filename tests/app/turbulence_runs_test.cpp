@@ -52,6 +52,26 @@ TEST_P(TurbulenceRuns, GoOnAndMoveAndDoNotDependOnRanks) {
   if (one != MPI_COMM_NULL) MPI_Comm_free(&one);
 }
 
+// First centres are about 0.3 mm from the wall. What the start does not tell is not warned of.
+TEST(TurbulenceRuns, ThinCellsAreToldBeforeARunBySpeedsOfTheStart) {
+  const auto told = [](double speed, const std::vector<std::string>& more) {
+    FlowLoop loop(MPI_COMM_WORLD,
+                  readFlowCase(turbulentDeck("model: k_epsilon, eddy_viscosity_ratio: 20, energy: 0.01 m^2/s^2",
+                                             ", turbulence_intensity: 0.05, turbulence_length: 2 mm", speed, more)));
+    testing::internal::CaptureStderr();
+    loop.warnOfStart();
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string thin = told(1.0, {});
+  if (test::worldRank() == 0) {
+    EXPECT_THAT(thin, AllOf(HasSubstr("on 100 % of the walls"), HasSubstr("largest speed of the start, 1 m/s")));
+  }
+  EXPECT_EQ(told(20.0, {}), "");
+  EXPECT_EQ(told(1.0, {"boundaries.wall.tangential_velocity=30 m/s"}), "");
+  EXPECT_EQ(told(1.0, {"boundaries.wall.formula.tangential_velocity=30*t"}), "");
+  EXPECT_EQ(told(1.0, {"turbulence.walls=automatic"}), "");
+}
+
 // A model and how it meets walls; empty: none.
 class IdleRestarts : public testing::TestWithParam<std::string> {
  protected:

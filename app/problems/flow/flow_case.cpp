@@ -69,6 +69,7 @@ void readDrivingForce(const Deck& deck, FlowCase& flowCase) {
     flowCase.gravity[i] = deck.quantity(key);
   }
   flowCase.referenceDensity = 0.0;
+  flowCase.isDriven = true;
 }
 
 }  // namespace

@@ -178,6 +178,7 @@ struct FlowCase {
   std::optional<double> repartition;  // busiest rank's cost over the mean, above which the mesh is partitioned anew
   std::vector<BoundaryCondition> boundaries;  // in the order of mesh.patches
   Vector3 gravity{0.0, 0.0, 0.0};             // m/s^2
+  bool isDriven = false;                      // gravity is driving_acceleration
   double referenceDensity = 0.0;              // kg/m^3, FlowContext
   MixingLayer initial;
   InitialFields initialFields;  // over the layer

@@ -71,18 +71,6 @@ RadiationOperator::Absorption particleAbsorption(const FlowCase& flowCase) {
   };
 }
 
-// Told before the run rather than in its end.
-void warnOfThinCells(const TurbulenceOperator& turbulence, const State& state, const std::string& model) {
-  const TurbulenceOperator::ThinCells thin = turbulence.thinCells(state);
-  if (!(thin.share > 0.5)) return;
-  printWarnings({fmt::format(
-      "turbulence.model: '{}' has wall functions, which are for a y+ of the cells beside walls from 30 to 300; on "
-      "{:.0f} % "
-      "of the walls' area it would be below {:.3g} even at a friction velocity of a tenth of the largest speed, {:.3g} "
-      "m/s, and such runs often fail; 'turbulence.walls: automatic' is for cells of any thickness",
-      model, 100.0 * thin.share, thin.mostYPlus, thin.speed)});
-}
-
 }  // namespace
 
 FlowDomain::FlowDomain(Mesh partitioned, const FlowCase& flowCase, const Thermo& thermo, Transport& transport,
@@ -168,7 +156,21 @@ void FlowDomain::setStart(const FlowCase& flowCase) {
   });
   if (turbulence) turbulence->setStart(state, flowCase.turbulence.start, flowCase.initialFields.turbulence);
   flow.initialise(state, flowCase.time.firstStep);
-  if (turbulence) warnOfThinCells(*turbulence, state, flowCase.turbulence.model->name());
+}
+
+// Of a flow that is driven, or whose boundaries change, the start tells no speed.
+void FlowDomain::warnOfThinCells(const FlowCase& flowCase) const {
+  const auto varies = [](const BoundaryCondition& boundary) { return boundary.varies.inTime; };
+  if (!turbulence || flowCase.isDriven || std::ranges::any_of(flowCase.boundaries, varies)) return;
+  const TurbulenceOperator::ThinCells thin = turbulence->thinCells(state);
+  if (!(thin.share > 0.5)) return;
+  printWarnings({fmt::format(
+      "turbulence.model: '{}' has wall functions, which are for a y+ of the cells beside walls from 30 to 300; on "
+      "{:.0f} % of the walls' area it would be below {:.3g} even at a friction velocity of a tenth of the largest "
+      "speed "
+      "of the start, {:.3g} m/s, and such runs often fail; the run tells at its end what y+ was; 'turbulence.walls: "
+      "automatic' is for cells of any thickness",
+      flowCase.turbulence.model->name(), 100.0 * thin.share, thin.mostYPlus, thin.speed)});
 }
 
 std::vector<double> FlowDomain::carriedThroughFaces(const CarriedModel& model, double dt) const {

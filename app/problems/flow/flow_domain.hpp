@@ -31,6 +31,9 @@ struct FlowDomain {
 
   // Collective. The state that the deck begins with.
   void setStart(const FlowCase& flowCase);
+  // Collective. Tells the user where cells beside walls are too thin for wall functions at the speeds of the present
+  // state, before a run.
+  void warnOfThinCells(const FlowCase& flowCase) const;
   // Collective. Counts from the present state on.
   void beginBudget(const FlowCase& flowCase);
   // After the gas has been replaced by another: face flows, rates and budgets as at a start.

@@ -61,6 +61,8 @@ class FlowLoop {
   // Collective.
   void addOperator(Operator& added);
 
+  // Collective. What the user should know of the state that the run is to begin with, of the deck or loaded.
+  void warnOfStart() const { domain_->warnOfThinCells(case_); }
   void run(const RunFolder& folder, const RunInfo& info);
 
   // Between two steps: partitions the mesh by these weights of the owned cells and moves the state. Collective.

@@ -73,6 +73,7 @@ class PreparedFlow : public PreparedRun {
       try {
         if (!restart && coarserMeshes_ > 0)
           run_ = std::make_unique<FlowLoop>(comm_, caseFromCoarserMeshes(comm_, deck_, coarserMeshes_, folder, info));
+        run_->warnOfStart();
         run_->run(folder, info);
       } catch (const Stopped&) {
         run_->count(record);

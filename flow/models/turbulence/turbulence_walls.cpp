@@ -110,14 +110,14 @@ TurbulenceOperator::WallState TurbulenceOperator::atWall(int face, const State& 
   return {shear, std::sqrt(shear * state.density[cell]) * m.distance[face] / viscosity};
 }
 
-// The largest speed is that of the state or of what comes in.
+// The largest speed is that of the state, of what comes in or of a wall that moves.
 TurbulenceOperator::ThinCells TurbulenceOperator::thinCells(const State& state) const {
   constexpr double mostFriction = 0.1;
   const Mesh& m = context_.mesh;
   const auto d = static_cast<std::size_t>(m.dimension);
   ThinCells thin;
   for (const BoundaryCondition& boundary : context_.boundaries)
-    thin.speed = std::max(thin.speed, std::hypot(boundary.speed, boundary.swirl));
+    thin.speed = std::max(thin.speed, std::hypot(boundary.speed, boundary.tangential, boundary.swirl));
   for (std::size_t c = 0; c < cells_.size(); ++c) {
     double square = 0.0;
     for (std::size_t i = 0; i < d; ++i) square += state.velocity[c * d + i] * state.velocity[c * d + i];
