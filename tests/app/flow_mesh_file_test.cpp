@@ -150,14 +150,15 @@ TEST(FlowMeshFile, ANameWithPointsOrBracketsGoesByUnderscores) {
   const Mesh mesh = makeMesh(MPI_COMM_WORLD, flowCase);
   EXPECT_THAT(mesh.patches, ElementsAre("in", "out", "top", "wall_1__low"));
   EXPECT_THAT(deck.error(withoutFloor + "  wall_1_low: {type: wall}\n"),
-              AllOf(HasSubstr("no such part of the mesh"), HasSubstr("names: wall_1__low, out, top, in"),
+              AllOf(HasSubstr("no such part of the mesh"), testing::Not(HasSubstr("wall[1]")),
                     HasSubstr("did you mean 'wall_1__low'")));
   EXPECT_THAT(deck.error(withoutFloor), HasSubstr("'wall_1__low' has no boundary"));
+  const std::string withoutTop = rowSides.substr(0, rowSides.find("  top"));
   for (const std::string other : {"\"wall.1].low\"", "\"wall_1__low\""}) {
     std::string twice = file;
     twice.replace(twice.find("\"top\""), 5, other);
     deck.write(twice);
-    EXPECT_THAT(deck.error(withoutFloor + "  wall_1__low: {type: wall}\n"),
+    EXPECT_THAT(deck.error(withoutTop + "  wall_1__low: {type: wall}\n"),
                 AllOf(HasSubstr("boundaries.wall_1__low"), HasSubstr("have this one name in a deck"),
                       HasSubstr("'wall[1].low'")));
   }
