@@ -20,6 +20,9 @@ from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import splu
 
 HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parents[1] / "reference"))
+from three_bands import derivatives, entries  # noqa: E402
+
 REYNOLDS, GAMMA, RECOVERY, HEIGHT, KAPPA = 3e6, 1.4, 0.71 ** (1 / 3), 0.1, 0.41  # per m; m
 PLACES = (0.6321975, 0.75, 0.8678025)
 
@@ -86,22 +89,10 @@ class Stream:
 
 def newton(residual, values, n):
     """Unknowns are known by their own and the neighbours' cells."""
-    cell, count = np.arange(n), len(values)
+    count = len(values)
     for _ in range(40):
-        rows, columns, slopes = [], [], []
-        for b in range(count):
-            for colour in range(3):
-                moved = [v.astype(complex) for v in values]
-                moved[b][cell % 3 == colour] += 1e-30j
-                step = (colour - cell) % 3
-                step[step == 2] = -1
-                for a, of in enumerate(residual(moved)):
-                    other = cell + step
-                    ok = (other >= 0) & (other < n) & (of.imag != 0)
-                    rows.append(cell[ok] * count + a)
-                    columns.append(other[ok] * count + b)
-                    slopes.append(of.imag[ok] / 1e-30)
-        J = csc_matrix((np.concatenate(slopes), (np.concatenate(rows), np.concatenate(columns))), shape=(count * n,) * 2)
+        rows, columns, slopes = entries(derivatives(residual, values))
+        J = csc_matrix((slopes, (rows, columns)), shape=(count * n,) * 2)
         change = splu(J).solve(-np.stack([np.real(of) for of in residual(values)], 1).ravel()).reshape(n, count)
         error = max(np.abs(change[:, 0]).max(), np.abs(change[:, 2]).max() / np.abs(values[2]).max())
         values = [v + d for v, d in zip(values, change.T)]

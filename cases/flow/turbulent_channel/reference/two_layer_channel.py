@@ -9,9 +9,13 @@ model; the shares pass from one to the other as in docs/theory/turbulence.md, "W
 velocity over the distance from the wall.
 """
 
+import pathlib
 import sys
 
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "reference"))
+from three_bands import derivatives, entries  # noqa: E402
 
 CMU, C1, C2, SIGMA_E, KAPPA = 0.09, 1.44, 1.92, 1.3, 0.41
 LENGTH = KAPPA * CMU**-0.75
@@ -42,7 +46,7 @@ def solve(reynolds, n):
     nu, stretch = 1 / reynolds, max(2.6, 0.5 * np.log(reynolds) + 0.35)
     place = lambda s: 1 + np.tanh(stretch * (s - 1)) / np.tanh(stretch)
     faces, y = place(np.arange(n + 1) / n), place((np.arange(n) + 0.5) / n)
-    size, below, cell = np.diff(faces), np.diff(np.r_[0, y]), np.arange(n)
+    size, below = np.diff(faces), np.diff(np.r_[0, y])
     mixing = KAPPA * y * (1 - 0.55 * y) * (1 - np.exp(-y * reynolds / 26)) ** 2
     k = np.maximum(3.3 * (1 - 0.8 * y) * np.minimum(1, (y * reynolds / 15) ** 2), 1e-10)
     e = np.maximum(k**1.5 / (LENGTH * y * (1 - np.exp(-np.sqrt(k) * y * reynolds / (2 * LENGTH)))), 1e-8)
@@ -50,15 +54,8 @@ def solve(reynolds, n):
     for _ in range(400):
         now = [np.real(of) for of in residual(values, nu, y, size, below)]
         J = np.zeros((3 * n, 3 * n))
-        for b in range(3):
-            for colour in range(3):
-                moved = [v.astype(complex) for v in values]
-                moved[b][cell % 3 == colour] += 1e-30j
-                to = (colour - cell) % 3
-                to[to == 2] = -1
-                ok = (cell + to >= 0) & (cell + to < n)
-                for a, of in enumerate(residual(moved, nu, y, size, below)):
-                    J[3 * cell[ok] + a, 3 * (cell + to)[ok] + b] = of.imag[ok] / 1e-30
+        rows, columns, slopes = entries(derivatives(lambda moved: residual(moved, nu, y, size, below), values))
+        J[rows, columns] = slopes
         J[np.r_[1:3 * n:3, 2:3 * n:3], np.r_[1:3 * n:3, 2:3 * n:3]] -= 1 / step
         change = np.linalg.solve(J, -np.stack(now, 1).ravel()).reshape(n, 3).T
         values = [np.maximum(v + d, 0.1 * v) for v, d in zip(values, change)]

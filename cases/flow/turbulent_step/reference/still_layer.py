@@ -11,7 +11,13 @@ largest nu~/nu of the steady state. Where none is found: "grows" where it has pa
 the value by then, which if small is no proof that it grows; "swings" where 800 iterations do not settle to 1e-7, with the last value.
 """
 
+import pathlib
+import sys
+
 import numpy as np
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "reference"))
+from three_bands import derivatives  # noqa: E402
 
 ALPHA, BETA, GAMMA = 1.2, 0.084, 1.7  # beside walls (Wang 2025, equations 8-16 to 8-21)
 NU, LENGTH, OUTSIDE = 1.5e-5, 5e-3, 200 * 1.5e-5  # m^2/s, m, m^2/s
@@ -56,21 +62,6 @@ def rates(n, faces, strain, way):
     return result + GAMMA * n * product
 
 
-def derivatives(n, *rest):
-    """Of the rates, in three bands."""
-    bands = np.zeros((3, n.size))
-    for colour in range(3):
-        moved = n.astype(complex)
-        moved[colour::3] += 1e-30j
-        found = rates(moved, *rest).imag / 1e-30
-        cells = np.arange(colour, n.size, 3)
-        for band in range(3):
-            rows = cells + band - 1
-            isInside = (rows >= 0) & (rows < n.size)
-            bands[band, cells[isInside]] = found[rows[isInside]]
-    return bands
-
-
 def solve(bands, right):
     """Thomas's algorithm; bands[i, j]: of the equation j + i - 1 by the unknown j."""
     diagonal, right = bands[1].copy(), right.copy()
@@ -91,7 +82,7 @@ def steady(cells, ratio, strain, way, steps=800):
     faces = np.r_[0.0, np.cumsum(sizes)] * LENGTH / sizes.sum()
     n, dt = np.full(cells, 3 * NU), 1e-5
     for _ in range(steps):
-        bands = -derivatives(n, faces, strain, way)
+        bands = -derivatives(lambda of: [rates(of[0], faces, strain, way)], [n])[0][0]
         bands[1] += 1 / dt
         change = solve(bands, rates(n, faces, strain, way))
         share = np.abs(change / n).max()
