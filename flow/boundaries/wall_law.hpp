@@ -1,7 +1,7 @@
 // The law of the wall, by which a k-epsilon model meets walls without resolving the layers beside them (Launder and
 // Spalding 1974): of the centre of the cell beside a wall, with the friction velocity u* = C_mu^(1/4) k^(1/2) of the
-// turbulent energy there and y* = u* y/nu; for k-omega models of both layers at once, so that cells may be of any
-// thickness. Heat and species by the function of Jayatilleke (1969).
+// turbulent energy there and y* = u* y/nu; for models of two equations also of both layers at once, so that cells may
+// be of any thickness. Heat and species by the function of Jayatilleke (1969).
 #pragma once
 
 #include <algorithm>
@@ -46,6 +46,10 @@ inline constexpr double meeting = 11.5301;
       turbulentNumber * (std::log(smoothness * yStar) / kappa + sublayerResistance(number / turbulentNumber));
   return logarithmic > 0.0 ? std::min(viscous, logarithmic) : viscous;
 }
+
+// By how much faster than k decays epsilon is held where lengths or both layers at once give it: it is off by a share
+// of one over that. In thin cells a rate of 10 000 times that of the decay would make a residual of round-off.
+inline constexpr double holdsFaster = 1e2;
 
 // y* up to which no eddies bring anything to the wall that a drift of a hundredth of u* would not: those of van
 // Driest's mixing length, (0.41 y*^2/26)^2 nu there, over y*. Of a drift twice as fast it is a quarter more.
@@ -101,9 +105,9 @@ struct Layer {
   return {share * shear * perLength, share * friction * friction * perLength + (1.0 - share) * viscous};
 }
 
-// The same by both layers, for models with omega: 6 nu/(beta y^2) of the viscous layer and k^(1/2)/(C_mu^(1/4) kappa y)
-// of the logarithmic one, the root of their squares' sum. What the viscosity does not take of the friction the eddies
-// do, at the law's shear.
+// The same by both layers, for models of two equations: omega is 6 nu/(beta y^2) of the viscous layer and
+// k^(1/2)/(C_mu^(1/4) kappa y) of the logarithmic one, the root of their squares' sum; epsilon is C_mu k omega. What
+// the viscosity does not take of the friction the eddies do, at the law's shear.
 [[nodiscard]] inline Layer blendedLayer(double energy, double velocity, double viscosity, double distance,
                                         double beta) {
   const double friction = frictionVelocity(energy);

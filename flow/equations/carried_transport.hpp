@@ -71,6 +71,8 @@ class CarriedTransport {
   void diffuse(const State& state, const Gas& gas, double dt, std::span<double> content);
   void findHeld(const State& state, const ScalarBoundaries& boundaries) const;
   void addCrossed(std::span<const double> flux);
+  static void leaveOut(const State& state, std::span<double> perFace);
+  [[nodiscard]] double densityBetween(const State& state, int face) const;
   [[nodiscard]] std::size_t firstOfBoundary() const;  // in flux()
   [[nodiscard]] bool hasDriftToWall(const FaceState& faces, int face) const;
   void solveChanges(const State& state, std::span<const double> inertia, std::span<const double> conductance,

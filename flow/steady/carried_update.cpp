@@ -218,6 +218,8 @@ void CarriedUpdate::takeShares(State& state, const FlowResidual& residual) {
   for (int halvings = 0; less > 0; ++halvings) {
     for (int c = 0; c < context_.mesh.owned; ++c) take(state, c);
     if (halvings == mostHalvings) break;
+    // Of a cell beside those of another rank the slopes count what these have taken.
+    context_.halo.update(state.carried, static_cast<int>(n_));
     made_.clear();
     for (Operator* op : operators_) op->addRatesOfCarried(state, made_);
     less = 0;

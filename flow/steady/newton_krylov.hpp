@@ -40,7 +40,7 @@ class NewtonKrylov {
     int iterations = 0;        // of the linear solver
     double largestRise = 0.0;  // K, of any cell before it was limited
     std::int64_t limited = 0;  // cells whose change was limited
-    std::int64_t held = 0;     // cells of all ranks in which limits held back what is carried, where that is unknown
+    std::int64_t held = 0;     // cells of all ranks in which limits held back what is carried; 0 without unknowns of it
     double reached = 0.0;      // what is left of the linear system
     Left before;               // what is left before the step, as leftInTime() has it
   };

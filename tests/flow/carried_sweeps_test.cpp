@@ -164,6 +164,26 @@ TEST(CarriedSweeps, EndAsTheLinearSystemDoes) {
   for (CarriedAtRest* of : {&one, &other}) EXPECT_EQ(of->update->advance(of->state, of->residual, of->inertia), 0);
 }
 
+// A step of a cell leaves ten times what there was at most. From next to nothing the limits hold all cells back to the
+// end of the last sweep, from a hundredth of what they come to none.
+TEST(CarriedSweeps, CountTheCellsThatAreHeld) {
+  CarriedAtRest flow({1.0, 100.0}, {1.0, 100.0}, true);
+  flow.settle(1e-11, 100);
+  const State rest = flow.state;
+  const auto cells = static_cast<std::int64_t>(std::llround(sumOverRanks(flow.b.mesh.owned)));
+  for (const double share : {1e-2, 1e-40}) {
+    flow.state = rest;
+    for (double& amount : flow.state.carried) amount *= share;
+    flow.residual.evaluate(flow.state);
+    const std::int64_t held = flow.update->advance(flow.state, flow.residual, flow.inertia);
+    double most = 0.0;
+    for (std::size_t i = 0; i < 2 * at(flow.b.mesh.owned); ++i)
+      most = std::max(most, flow.state.carried[i] / rest.carried[i]);
+    report(fmt::format("from {:g}: {} of {} cells held, {:g} reached", share, held, cells, most));
+    EXPECT_EQ(held, share < 1e-3 ? cells : 0);
+  }
+}
+
 // What is far less than what counts as nothing has no residual to speak of, and all of it where that is not known.
 TEST(CarriedSweeps, NothingIsLeftOfNextToNothing) {
   CarriedAtRest flow({0.0, 0.0}, {0.0, 0.0}, true);

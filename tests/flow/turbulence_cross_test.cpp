@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,7 +33,9 @@ TEST(TurbulenceCross, IsAtMostTwiceWhatTheSteepestNeighbourSays) {
   cell.values[0] = n;
   cell.gradients[0] = {0.18, 0.24};  // along the strain's
   const auto near = [](double found, double exact) { EXPECT_NEAR(found, exact, 1e-12 + 1e-10 * std::abs(exact)); };
-  near(crossRate(cell), full);  // without neighbours
+  near(crossRate(cell), full);  // neighbours are not known
+  cell.knowsNeighbours = true;
+  near(crossRate(cell), 0.0);  // none is above
   cell.above = {.value = n + 0.16e-3, .distance = h};
   cell.below = {.value = n, .distance = h};
   near(crossRate(cell), full);  // 0.16 is more than half of 0.3
@@ -42,22 +45,28 @@ TEST(TurbulenceCross, IsAtMostTwiceWhatTheSteepestNeighbourSays) {
   near(crossRate(cell), 0.0);
   cell.gradients[0] = {-0.18, -0.24};
   near(crossRate(cell), 0.0);  // nothing falls, either
+  cell.below.reset();
+  near(crossRate(cell), 0.0);
   cell.below = {.value = n - 0.05e-3, .distance = 0.5 * h};
   near(crossRate(cell), -full * 0.2 / 0.3);
   cell.below = {.value = n - 0.16e-3, .distance = h};
   near(crossRate(cell), -full);
 }
 
-// Says which neighbours it was told of.
+// Says which neighbours it was told of; of none its own value, no distance away.
 struct Bystander {
   static constexpr bool needsWallDistance = false, needsStrainGradient = true;
   [[nodiscard]] std::string name() const { return "bystander"; }
   [[nodiscard]] std::vector<TurbulenceModel::Variable> variables() const { return {{"n", "1", ""}}; }
   [[nodiscard]] std::array<double, 2> freeStream(const FreeStream& stream) const { return {stream.energy}; }
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
-    return {.eddyViscosity = cell.above->value,
-            .diffusivity = {cell.above->distance + 100.0 * cell.below->distance},
-            .source = {cell.below->value}};
+    EXPECT_TRUE(cell.knowsNeighbours);
+    const auto of = [&](const std::optional<TurbulentCell::Neighbour>& neighbour) {
+      return neighbour.value_or(TurbulentCell::Neighbour{cell.values[0], 0.0});
+    };
+    return {.eddyViscosity = of(cell.above).value,
+            .diffusivity = {of(cell.above).distance + 100.0 * of(cell.below).distance},
+            .source = {of(cell.below).value}};
   }
 };
 
@@ -88,11 +97,47 @@ TEST(TurbulenceCross, NeighboursAreThoseOfTheSteepestRiseAndFall) {
     // The rise along x is the steeper one; beside the wall that along y is left, and in the corner none.
     const double above = isBeside ? value(x, isTop ? y : y + h) : value(x + h, y);
     const double below = isBeside ? 0.0 : isFirst ? value(x, isBottom ? y : y - h) : value(x - h, y);
-    const double upwards = isBeside && isTop ? 1.0 : h, downwards = isBeside ? 0.5 * h : isFirst && isBottom ? 1.0 : h;
+    const double upwards = isBeside && isTop ? 0.0 : h, downwards = isBeside ? 0.5 * h : isFirst && isBottom ? 0.0 : h;
     EXPECT_NEAR(state.eddyViscosity[c] / density, above, 1e-12);
     EXPECT_NEAR((rates.carried[c] - rates.carriedSink[c] * state.carried[c]) / density, below, 1e-12);
     EXPECT_NEAR(state.carriedDiffusivity[c], upwards + 100.0 * downwards, 1e-12);
   }
+}
+
+// The step from cell to cell is oblique to the face there: longer than what lies along the face's normal.
+TEST(TurbulenceCross, NeighboursOfSkewedCellsAreAsFarAsTheirCentres) {
+  TurbulentSquare square(std::make_shared<PointwiseModel<Bystander>>(), Geometry::Planar, wallAtTheEnd(),
+                         Split{Cells::Quadrilaterals});
+  const Mesh& m = square.box.mesh;
+  State state = square.state([](const Vector3&) { return Vector3{}; });
+  TurbulenceOperator turbulence = square.turbulence(state);
+  turbulence.setStart(state, {ofMolecules, ofMolecules, 2.0});
+  const auto value = [](const Vector3& x) { return 2.0 + 300.0 * x[0] + 100.0 * x[1]; };
+  for (std::size_t c = 0; c < state.density.size(); ++c) state.carried[c] = state.density[c] * value(m.centre[c]);
+  turbulence.setDiffusivities(state);
+  std::vector<double> above(at(m.owned)), below(at(m.owned)), up(at(m.owned)), down(at(m.owned));
+  double longest = 1.0;  // of a step, over what lies along the normal
+  const auto see = [&](int cell, double rise, const Vector3& to, int face) {
+    if (cell < 0 || cell >= m.owned) return;
+    const double far = length(difference(to, m.centre[at(cell)])), slope = rise / far;
+    longest = std::max(longest, far / m.distance[at(face)]);
+    if (slope > above[at(cell)]) above[at(cell)] = slope, up[at(cell)] = far;
+    if (slope < below[at(cell)]) below[at(cell)] = slope, down[at(cell)] = far;
+  };
+  for (int face = 0; face < m.faces; ++face) {
+    const int low = m.low[at(face)], high = m.high[at(face)];
+    if (high < 0) {
+      if (square.box.context.boundaryOf(face).isNoSlipWall())
+        see(low, -value(m.centre[at(low)]), m.faceCentre[at(face)], face);
+      continue;
+    }
+    const double rise = value(m.centre[at(high)]) - value(m.centre[at(low)]);
+    see(low, rise, m.centre[at(high)], face);
+    see(high, -rise, m.centre[at(low)], face);
+  }
+  for (int c = 0; c < m.owned; ++c)
+    EXPECT_NEAR(state.carriedDiffusivity[at(c)], up[at(c)] + 100.0 * down[at(c)], 1e-12);
+  EXPECT_GT(largest(m, [&](int) { return longest; }), 1.05);
 }
 
 // Gas nearly at rest beside a wall, whose strain grows away from it: the parabola through the wall's zero says that nu~

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,9 +31,10 @@ struct TurbulentSquare {
 
   explicit TurbulentSquare(std::shared_ptr<const TurbulenceModel> modelOfIt, Geometry geometry = Geometry::Planar)
       : TurbulentSquare(std::move(modelOfIt), geometry, walls(geometry)) {}
-  TurbulentSquare(std::shared_ptr<const TurbulenceModel> modelOfIt, Geometry geometry, const std::vector<Side>& sides)
+  TurbulentSquare(std::shared_ptr<const TurbulenceModel> modelOfIt, Geometry geometry, const std::vector<Side>& sides,
+                  std::optional<Split> split = {})
       : model(std::move(modelOfIt)),
-        box(geometry, {uniformAxis(length, 7), uniformAxis(length, 7)}, sides, Gas::hydrogen()) {}
+        box(geometry, {uniformAxis(length, 7), uniformAxis(length, 7)}, sides, Gas::hydrogen(), split) {}
 
   static std::vector<Side> walls(Geometry geometry) {
     std::vector<Side> sides;

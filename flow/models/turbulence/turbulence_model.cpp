@@ -53,8 +53,9 @@ double slopeAlongStrain(const TurbulentCell& cell) {
   const auto towards = [&](const TurbulentCell::Neighbour& neighbour) {
     return most * steepness * (neighbour.value - cell.values[0]) / neighbour.distance;
   };
-  if (product > 0.0 && cell.above) return std::min(product, std::max(towards(*cell.above), 0.0));
-  if (product < 0.0 && cell.below) return std::max(product, std::min(towards(*cell.below), 0.0));
+  if (!cell.knowsNeighbours) return product;
+  if (product > 0.0) return cell.above ? std::min(product, std::max(towards(*cell.above), 0.0)) : 0.0;
+  if (product < 0.0) return cell.below ? std::max(product, std::min(towards(*cell.below), 0.0)) : 0.0;
   return product;
 }
 

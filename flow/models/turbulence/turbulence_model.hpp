@@ -43,17 +43,18 @@ struct TurbulentCell {
   // Of the second variable's: what differences see beside the products of the gradients (Gradient::Beyond).
   double productBeyond = 0.0, squareBeyond = 0.0;
   // Of models of one variable that go by the strain's slope: the neighbours towards which the variable rises and falls
-  // most steeply. Without such a neighbour its value is the cell's own.
+  // most steeply; none where no neighbour has more, or less.
   struct Neighbour {
-    double value = 0.0, distance = 0.0;  // distance: m, between the centres
+    double value = 0.0, distance = 0.0;  // distance: m, between the centres, or to that of a boundary's face
   };
+  bool knowsNeighbours = false;
   std::optional<Neighbour> above{}, below{};
 };
 
-// grad ln S . grad of the first variable, in its unit over m^2: by no more than twice what the slopes towards the
-// neighbours above and below say, as slopes of convection are limited. A term nu~ grad ln S . grad nu~ carries nu~
-// towards the lower strain and makes none where nu~ is largest; slopes over three values say otherwise beside a wall,
-// where nu~ falls to zero in a layer thinner than the cell.
+// grad ln S . grad of the first variable, in its unit over m^2: where the neighbours are known, by no more than twice
+// what the slopes towards those above and below say, as slopes of convection are limited. A term nu~ grad ln S . grad
+// nu~ carries nu~ towards the lower strain and makes none where nu~ is largest; slopes over three values say otherwise
+// beside a wall, where nu~ falls to zero in a layer thinner than the cell.
 [[nodiscard]] double slopeAlongStrain(const TurbulentCell& cell);
 
 // What a model of two equations carries beside k.
@@ -174,7 +175,7 @@ struct TurbulenceRow {
   std::shared_ptr<const TurbulenceModel> (*make)(const TurbulenceChoices& choices);
 };
 [[nodiscard]] std::span<const TurbulenceRow> turbulenceModels();
-// InputError for a name that no row has, for the blended law of a model without omega, and for C_1 of one that has
+// InputError for a name that no row has, for the blended law of a model of one equation, and for C_1 of one that has
 // none.
 [[nodiscard]] std::shared_ptr<const TurbulenceModel> turbulenceModel(std::string_view name,
                                                                      const TurbulenceChoices& choices = {});

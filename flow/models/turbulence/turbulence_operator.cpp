@@ -169,21 +169,26 @@ void TurbulenceOperator::findRates(const State& state) {
 // Towards which the variable rises and falls most steeply, with the values that are held at boundaries.
 void TurbulenceOperator::findNeighbours() {
   const Mesh& m = context_.mesh;
-  for (TurbulentCell& cell : cells_)
-    cell.above = cell.below = TurbulentCell::Neighbour{.value = cell.values[0], .distance = 1.0};
+  for (TurbulentCell& cell : cells_) {
+    cell.knowsNeighbours = true;
+    cell.above = cell.below = std::nullopt;
+  }
   const auto see = [&](int c, double value, double distance) {
     if (c < 0 || c >= m.owned) return;
     TurbulentCell& cell = cells_[static_cast<std::size_t>(c)];
     const double own = cell.values[0], slope = (value - own) / distance;
-    if (slope > (cell.above->value - own) / cell.above->distance) cell.above = {value, distance};
-    if (slope < (cell.below->value - own) / cell.below->distance) cell.below = {value, distance};
+    const auto towards = [&](const std::optional<TurbulentCell::Neighbour>& other) {
+      return other ? (other->value - own) / other->distance : 0.0;
+    };
+    if (slope > towards(cell.above)) cell.above = {value, distance};
+    if (slope < towards(cell.below)) cell.below = {value, distance};
   };
   for (int face = 0; face < m.faces; ++face) {
     const int low = m.low[face], high = m.high[face];
     const int boundary = face - m.interiorFaces;
     if (high < 0 && known_[boundary] != BoundaryData::Value) continue;
-    see(low, high < 0 ? boundaryValues_[boundary] : values_[high], m.distance[face]);
-    see(high, values_[low], m.distance[face]);
+    see(low, high < 0 ? boundaryValues_[boundary] : values_[high], m.spacing(face));
+    see(high, values_[low], m.spacing(face));
   }
 }
 

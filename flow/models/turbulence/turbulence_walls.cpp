@@ -72,14 +72,14 @@ void TurbulenceOperator::findWallLaw(const State& state) {
 }
 
 // In place of the model's rates in the cells beside walls. The dissipation, or omega, is held at the law's by a rate
-// much faster than what else changes it, which leaves it that share wrong. The dissipation of k goes with a power of k,
-// 3/2, or in the law of two layers between one and 3/2, and more where one passes into the other: by its tangent.
+// much faster than what else changes it, which leaves it that share wrong. What k loses goes with a power of k, and is
+// taken by its tangent. Of models with epsilon the power is that of the law: one in the viscous layer, 3/2 in the
+// logarithmic one, more where one passes into the other. Of models with omega it is 3/2 everywhere.
 void TurbulenceOperator::applyWallLaw() {
   constexpr std::size_t energy = 0, second = 1;
   const bool isBlended = model_->wallLaw() == WallLaw::Blended;
   const bool holdsDissipation = model_->secondVariable() == SecondVariable::Dissipation;
-  // In thin cells a rate of 10 000 times what decays would make a residual of round-off.
-  const double faster = isBlended && holdsDissipation ? 1e2 : 1e4;
+  const double faster = isBlended && holdsDissipation ? walllaw::holdsFaster : 1e4;
   for (std::size_t c = 0; c < rates_.size(); ++c) {
     const double k = cells_[c].values[energy];
     if (!(layerArea_[c] > 0.0) || (holdsDissipation && !(k > 0.0))) continue;

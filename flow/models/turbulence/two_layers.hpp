@@ -59,7 +59,6 @@ struct TwoLayers {
   // Rates of both layers by their shares; in that of the inner one, whose eddies and k know nothing of it, epsilon is
   // held by a rate much faster than it decays.
   [[nodiscard]] TurbulentRates at(const TurbulentCell& cell) const {
-    constexpr double faster = 1e2;
     TurbulentRates rates = outer.at(cell);
     const double k = std::max(cell.values[0], 0.0);
     const twolayers::Lengths of = twolayers::lengths(k, cell.viscosity, cell.distance);
@@ -76,8 +75,8 @@ struct TwoLayers {
     rates.source[0] += inner * eddies * cell.strain * cell.strain;
     rates.sink[0] += inner * of.decay;
     rates.add(0, inner * (eddies * cell.buoyancy - 2.0 / 3.0 * k * cell.dilatation), k);
-    rates.source[1] += inner * faster * of.decay * of.decay * k;
-    rates.sink[1] += inner * faster * of.decay;
+    rates.source[1] += inner * walllaw::holdsFaster * of.decay * of.decay * k;
+    rates.sink[1] += inner * walllaw::holdsFaster * of.decay;
     return rates;
   }
 };
