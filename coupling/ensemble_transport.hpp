@@ -24,7 +24,8 @@
 // of a cell are put in order of size once in a half of a step; in each part the teeth of a comb, as far from one
 // another as no probability of that size is above, hit those that are looked at, and evenly spread points
 // (nextEvenPoint) tell whether one of them goes, and where: a part costs what leaves in it, not what is there. A
-// numerical particle that stands for more than twice the mean goes in pieces, so that the number does not leap.
+// numerical particle that stands for more than twice the mean goes in pieces, so that the number does not leap, but for
+// a cell's own where all of these stand for equal numbers.
 // docs/theory/ensembles_in_cells.md.
 #pragma once
 

@@ -1,5 +1,4 @@
-// Steps of particles between cells that are taken in parts, by each class in as many as it needs; and which particles
-// go in part.
+// Steps of particles between cells that are taken in parts, by each class in as many as it needs.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -111,61 +110,6 @@ TEST(EnsembleParts, TakesStepsThatAreTooLongInParts) {
   EXPECT_EQ(transport.limited(), 0);
   EXPECT_NEAR(m.total(0.0) / before, 1.0, 1e-13);
   EXPECT_THROW(m.step(transport, 50.0, 1), NumericsError);
-}
-
-// Of one weight none of a cell's own goes in part, however light those are that have come to it; these go in pieces,
-// and the mean is the same. Sizes beyond those of nodes, too.
-TEST(EnsembleTransport, LeavesPopulationsOfOneWeightTheirs) {
-  constexpr int repeats = 60, few = 5, light = 30;
-  for (const double d : {2e-9, 1e-4}) {
-    MeanOfRepeats numbers;
-    std::vector<double> expected;
-    std::int64_t inPart = 0;
-    for (int r = 0; r < repeats; ++r) {
-      Moving m(8, vortex);
-      const auto pack = [&](EnsembleTransport::Rows& to, double number) {
-        packDoubles(to, GivenParticle{massOf(d), 0.0, 1.0, number});
-      };
-      m.fill(0, hill);
-      std::vector<double> field(at(m.box.mesh.cells));
-      for (int c = 0; c < m.box.mesh.owned; ++c) {
-        const double number = hill(m.box.mesh.centre[at(c)]);
-        for (int k = 0; k < few; ++k) pack(m.populations[at(c)], number / few);
-        for (int k = 0; k < light; ++k) pack(m.arrived[at(c)], 1e-3 * number / light);
-        field[at(c)] = 1.001 * number;
-      }
-      if (expected.empty()) expected = fieldAfter(m, field, 1e-4, 0.0, 1);
-      EnsembleTransport transport =
-          m.transport(false, 700 + static_cast<std::uint64_t>(r), 0.55, {packedHead, false, true});
-      transport.advance({m.state, m.drift, m.density, m.properties}, 2e-4, 0, EnsembleTransport::Half::First,
-                        m.populations, m.arrived);
-      std::vector<double> values;
-      for (int c = 0; c < m.box.mesh.owned; ++c) {
-        const double one = hill(m.box.mesh.centre[at(c)]) / few;
-        for (const GivenParticle& p : packedParticles(m.populations[at(c)])) inPart += p.number != one ? 1 : 0;
-        m.populations[at(c)].insert(m.populations[at(c)].end(), m.arrived[at(c)].begin(), m.arrived[at(c)].end());
-        values.push_back(m.moment(c, 0.0));
-      }
-      numbers.add(values);
-    }
-    EXPECT_EQ(sumOverRanks(static_cast<double>(inPart)), 0.0) << d << " m";
-    std::int64_t pieces = 0;  // of one that has come
-    Moving m(8, vortex);
-    m.fill(0, hill);
-    for (auto& rows : m.arrived)
-      for (int k = 0; k <= light; ++k) packDoubles(rows, GivenParticle{massOf(d), 0.0, 1.0, k == 0 ? 1e17 : 1e12});
-    EnsembleTransport transport = m.transport(false, 7, 0.55, {packedHead, false, true});
-    transport.advance({m.state, m.drift, m.density, m.properties}, 2e-4, 0, EnsembleTransport::Half::First,
-                      m.populations, m.arrived);
-    for (const auto& rows : m.arrived)
-      ParticleRows{}.forEach(rows, [&](const double* row) {
-        pieces += row[packedNumberAt] > 2e12 && row[packedNumberAt] < 0.99e17 ? 1 : 0;
-      });
-    EXPECT_GT(sumOverRanks(static_cast<double>(pieces)), 0.0) << d << " m";
-    const auto score = numbers.against(expected);
-    EXPECT_LT(score.largest, 4.6) << d << " m";
-    EXPECT_LT(score.square, 1.6) << d << " m";
-  }
 }
 
 }  // namespace

@@ -191,43 +191,6 @@ TEST(EnsembleTransport, MovesEveryMomentAlike) {
   }
 }
 
-// Particles that stand for many go in pieces, so that the few that have most of the number do not make it leap; the
-// mean is the same.
-TEST(EnsembleTransport, SharesOutParticlesThatStandForMany) {
-  constexpr int repeats = 60;
-  MeanOfRepeats numbers;
-  std::vector<double> expected;
-  double scatter = 0.0;
-  std::map<int, std::vector<double>> all;
-  for (int r = 0; r < repeats; ++r) {
-    Moving m(8, vortex);
-    m.fill(40, hill, 0.0);
-    for (auto& rows : m.populations)  // the half of the number in one
-      rows[packedHead + 3] *= 39.0;
-    if (expected.empty()) {
-      std::vector<double> field(at(m.box.mesh.cells));
-      for (int c = 0; c < m.box.mesh.owned; ++c) field[at(c)] = m.moment(c, 0.0);
-      expected = fieldAfter(m, field, 2e-4, 0.0, 4);
-    }
-    EnsembleTransport transport = m.transport(false, 900 + static_cast<std::uint64_t>(r));
-    for (int s = 0; s < 4; ++s) m.step(transport, 2e-4, static_cast<std::uint64_t>(s));
-    std::vector<double> values;
-    for (int c = 0; c < m.box.mesh.owned; ++c) {
-      values.push_back(m.moment(c, 0.0));
-      all[c].push_back(values.back() / expected[at(c)]);
-    }
-    numbers.add(values);
-  }
-  for (const auto& [cell, values] : all) scatter += std::pow(summarise(values).standardError, 2) * repeats;
-  scatter = std::sqrt(sumOverRanks(scatter) / 64.0);
-  const auto score = numbers.against(expected);
-  report(fmt::format("half of the number in one particle: scatter {:.3f} of a cell's number, largest |z| {:.2f}",
-                     scatter, score.largest));
-  EXPECT_LT(scatter, 0.1);  // as wholes they scatter by half of it and more
-  EXPECT_LT(score.largest, 4.6);
-  EXPECT_LT(score.square, 1.6);
-}
-
 // The scatter of a cell's number falls at least as one over the number of particles.
 TEST(EnsembleTransport, ScattersLessWithMoreParticles) {
   const auto variance = [](int count) {
