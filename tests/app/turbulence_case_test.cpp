@@ -43,6 +43,10 @@ TEST(TurbulenceCase, RefusesWhatCannotBe) {
       {{atInlet, withLength, noWall},
        {"turbulence.model", "'sst' goes by the distance from walls", "in, out, left, right"}},
       {{sa, noWall}, {"'sa' goes by the distance", "'wall_distance: infinite'"}},
+      {{"turbulence={model: k_epsilon, walls: automatic, wall_distance: infinite}", atInlet, withLength},
+       {"turbulence.wall_distance", "'turbulence.walls: automatic'", "'k_epsilon'", "the wall 'left'"}},
+      {{"turbulence={model: realizable_k_epsilon, walls: automatic, wall_distance: infinite}", atInlet, withLength},
+       {"turbulence.wall_distance", "'turbulence.walls: automatic'", "'realizable_k_epsilon'"}},
       {{"turbulence.model=wang", noWall}, {"'wang' goes by the distance"}},
       {{atInlet, withLength, withRatio},
        {"boundaries.in", "'turbulence_length' and 'eddy_viscosity_ratio', found both"}},
@@ -158,6 +162,11 @@ TEST(TurbulenceCase, NeedsNoWallsWhereTheirDistanceDoesNotCount) {
   for (const char* model : {"wray_agarwal", "k_omega", "k_omega1988", "k_epsilon"})
     EXPECT_NO_THROW(
         (void)readFlowCase(channelDeck({atInlet, withLength, noWall, std::string("turbulence.model=") + model})));
+  const std::string lengths = "turbulence={model: k_epsilon, walls: automatic, wall_distance: infinite}";
+  EXPECT_TRUE(readFlowCase(channelDeck({lengths, atInlet, withLength, noWall})).turbulence.ignoresWalls);
+  for (const char* without :
+       {"{model: k_epsilon, wall_distance: infinite}", "{model: sst, walls: automatic, wall_distance: infinite}"})
+    EXPECT_NO_THROW((void)readFlowCase(channelDeck({atInlet, withLength, std::string("turbulence=") + without})));
   EXPECT_EQ(readFlowCase(channelDeck({sa})).turbulence.options.mostRatio, 1e5);
 }
 

@@ -148,6 +148,18 @@ void readTurbulenceModel(const Deck& deck, FlowCase& flowCase) {
   flowCase.turbulence.model = turbulenceModel(name, choices);
 }
 
+// The algebraic lengths of a k-epsilon model go by the distance from the wall whose layer they resolve.
+void checkThatNoLayerIsLost(const Deck& deck, const FlowCase& flowCase) {
+  const TurbulenceModel& model = *flowCase.turbulence.model;
+  if (model.wallLaw() != WallLaw::Blended || model.secondVariable() != SecondVariable::Dissipation) return;
+  for (const BoundaryCondition& boundary : flowCase.boundaries)
+    if (boundary.isNoSlipWall())
+      throw deck.error("turbulence.wall_distance",
+                       fmt::format("with 'turbulence.walls: automatic' '{}' resolves the layer beside the wall '{}' by "
+                                   "the distance from it; expected walls, or no 'turbulence.walls'",
+                                   model.name(), boundary.name));
+}
+
 void readTurbulence(const Deck& deck, FlowCase& flowCase) {
   const std::string name = deck.choice("turbulence.model");
   if (name == "none") {
@@ -163,6 +175,7 @@ void readTurbulence(const Deck& deck, FlowCase& flowCase) {
   }
   TurbulenceCase& turbulence = flowCase.turbulence;
   turbulence.ignoresWalls = deck.choice("turbulence.wall_distance") == "infinite";
+  if (turbulence.ignoresWalls) checkThatNoLayerIsLost(deck, flowCase);
   turbulence.options.mostRatio = deck.number("turbulence.largest_eddy_viscosity_ratio");
   if (turbulence.model->knowsEnergy()) turbulence.options.buoyancy = deck.boolean("turbulence.buoyancy");
   if (turbulence.options.buoyancy && length(flowCase.gravity) == 0.0)
