@@ -5,10 +5,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <vector>
 
@@ -200,11 +203,24 @@ struct Case {
 
 class TurbulenceManufactured : public testing::TestWithParam<Case> {};
 
-// Over all meshes, as errors of both signs meet between two of them. Where cells are long against the ratio of
-// diffusion to convection, what diffuses to values at an inlet is of first order, and so is the bend of the strain
-// beside openings. Convection on triangles goes by slopes of first order.
-double leastOrder(Shape shape) {
-  return shape == Shape::Triangles ? 1.15 : 1.6;
+// Over all meshes, as errors of both signs meet between two of them. What is below 1.8, and why as far as it is known,
+// stands in docs/verification.md ("Turbulence models by manufactured solutions").
+double leastOrder(const Case& of, std::size_t variable) {
+  const auto isOne = [&](std::initializer_list<std::string_view> models) {
+    return std::ranges::find(models, of.model) != models.end();
+  };
+  if (of.shape == Shape::Triangles) return isOne({"hardly_mixed"}) ? 1.15 : isOne({"wang"}) ? 1.25 : 1.35;
+  if (isOne({"wang"})) return 1.6;  // the bend of the strain beside openings
+  const bool isRoundAndHeated = of.geometry == Geometry::Axisymmetric && of.isHeated;
+  if (isOne({"sst", "sst1994", "k_omega", "k_omega1988"}) && variable == 0 && isRoundAndHeated) return 1.6;
+  if (isOne({"hardly_mixed"}) && of.shape == Shape::Skewed) return 1.75;
+  return 1.8;
+}
+
+// Of the variable's rise, on 8, 16, 32 cells a side: a quarter above the largest of all models.
+double mostError(std::size_t level) {
+  constexpr double onTheCoarsest = 0.04;
+  return onTheCoarsest / std::pow(4.0, static_cast<double>(level));
 }
 
 TEST_P(TurbulenceManufactured, HasItsOrder) {
@@ -221,7 +237,8 @@ TEST_P(TurbulenceManufactured, HasItsOrder) {
     const double order = std::log2(found.front().error[v] / found.back().error[v]) / halvings;
     report(line + fmt::format(", order {:.2f}; still changing by {:.1e}, {} iterations", order, found.back().change[v],
                               found.back().iterations));
-    EXPECT_GE(order, leastOrder(of.shape)) << variables[v].name;
+    EXPECT_GE(order, leastOrder(of, v)) << variables[v].name;
+    EXPECT_LT(found.back().error[v], mostError(found.size() - 1)) << variables[v].name;
     EXPECT_LT(found.back().change[v], 0.05 * found.back().error[v]) << "not steady";
   }
 }
