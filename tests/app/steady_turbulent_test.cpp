@@ -32,7 +32,7 @@ output: {boundaries: [wall]}
 
 // Its start would be slow enough for cells that are too thin, but it is driven to other speeds.
 TEST(SteadyMode, ADrivenStartTellsNothingOfCellsBesideWalls) {
-  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(halfChannel({"initial.formula.velocity_x=0.1"})));
+  FlowLoop loop(MPI_COMM_WORLD, readFlowCase(halfChannel({"time.end=1 s", "initial.formula.velocity_x=0.1"})));
   testing::internal::CaptureStderr();
   loop.warnOfStart();
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
