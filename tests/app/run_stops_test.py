@@ -106,7 +106,7 @@ def check_boundaries(program, folder, deck):
     out = folder / "formula"
     result = program("run", deck, "--out", out)
     assert result.code == 2 and len(result.err.splitlines()) == 1, result
-    assert re.match(r"lampblack: boundary oxidiser, at \(0.00125, 0.008\) m and t = .* gives no finite number at .*; this was step "
+    assert re.match(r"lampblack: boundaries.oxidiser: at \(0.00125, 0.008\) m and t = .* gives no finite number at .*; this was step "
                     r"[0-9]+ from t = .* s, tried with dt = [^,]* s; the fields until then are in ", result.err), result.err
     steps = record_of(out)["steps"]
     assert steps > 0 and restart_test.checkpoints(out) == [f"step_{steps:06}.h5"], result.err
